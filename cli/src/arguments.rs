@@ -67,6 +67,8 @@ pub enum Command {
         #[arg(long, value_name = "FILE")]
         out: Option<PathBuf>,
     },
+    /// Open a local page that edits, runs, shows and compares what is in a folder
+    Studio(Studio),
     /// Add up the drops of a service, so many of each run: rolling fatigue, wear, and the worst of what does not add up
     Service(Service),
     /// Write results and histories of a run as tables for other programs
@@ -248,6 +250,21 @@ pub struct Service {
     /// Number of drops and the directory of a run of one, e.g. 40:runs/full_speed
     #[arg(required = true, value_name = "COUNT:DIR")]
     pub occasions: Vec<String>,
+}
+
+#[derive(Debug, Args)]
+pub struct Studio {
+    /// Folder with input files and runs, made where there is none [this folder]
+    pub folder: Option<PathBuf>,
+    /// Port on this machine [any free one]
+    #[arg(long, value_name = "N")]
+    pub port: Option<u16>,
+    /// Print the address only; open no browser
+    #[arg(long)]
+    pub no_browser: bool,
+    /// Make, run and show one of each kind in a temporary folder, and say what came out
+    #[arg(long, conflicts_with_all = ["folder", "port", "no_browser"])]
+    pub selftest: bool,
 }
 
 #[derive(Debug, Args)]

@@ -20,6 +20,7 @@ mod schema;
 mod service;
 mod start;
 mod stiffness;
+mod studio;
 mod study;
 mod summary;
 mod torque;
@@ -87,6 +88,7 @@ fn perform(command: &Command) -> Result<Exit> {
     match command {
         Command::Run(wish) => return run::perform(wish),
         Command::Study(wish) => return study::perform(wish),
+        Command::Studio(wish) => return studio::perform(wish),
         Command::Qualify(wish) => return qualify::perform(wish),
         Command::Torque(wish) => return torque::perform(wish),
         Command::Signals(wish) => return measured::perform(wish, SystemName::Signals),

@@ -36,6 +36,7 @@ pub fn perform(wish: &Qualify) -> Result<Exit> {
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
         controllers: Some(&auxbear_fmu::controller::Units),
+        rows: None,
     };
     let told = Mutex::new(begin);
     let interim = Cell::new(begin);

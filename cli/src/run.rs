@@ -58,6 +58,7 @@ pub fn execute(
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
         controllers: Some(&auxbear_fmu::controller::Units),
+        rows: None,
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;

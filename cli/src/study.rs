@@ -58,6 +58,7 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
         controllers: Some(&auxbear_fmu::controller::Units),
+        rows: None,
     };
     let done = directory.run(&options, &|members| pace.show(members))?;
     if !wish.quiet {

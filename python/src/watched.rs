@@ -56,6 +56,7 @@ pub fn watched<T: Send + 'static>(
             interrupt: &is_over,
             progress: &tell,
             controllers: Some(&auxbear_fmu::controller::Units),
+            rows: None,
         };
         let found = catch_unwind(AssertUnwindSafe(|| {
             in_living_pool(|| work(&options, &tell))

@@ -2,6 +2,7 @@
 
 mod bad_input;
 mod bearings;
+mod browser;
 mod export;
 mod fmu;
 mod kills;
@@ -16,5 +17,6 @@ mod signals;
 mod spin_up;
 mod stiffness;
 mod stopped;
+mod studio;
 mod study;
 mod torque;

@@ -78,9 +78,7 @@ fn until(folder: &Path, out: &str, share: f64) -> Done {
     };
     let options = Options {
         threads: Some(1),
-        interrupt: &interrupt,
-        progress: &|_| {},
-        controllers: None,
+        ..Options::unwatched(&interrupt)
     };
     directory(folder, out).run(&options, &stop).unwrap()
 }

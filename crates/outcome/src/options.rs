@@ -2,6 +2,28 @@
 
 use std::sync::atomic::AtomicBool;
 
+/// An auxiliary bearing at an instant of a run that is not over yet.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InterimBearing {
+    /// Rotor centre relative to that of the inner race: to the right and upwards, m.
+    pub rotor: [f64; 2],
+    /// Normal force of rotor and inner race, N.
+    pub force: f64,
+    /// Azimuth of each ball from x, rad, and its load on the inner race, N.
+    pub balls: Vec<[f64; 2]>,
+}
+
+/// A sampled instant of a run that is not over yet, for pictures of its progress.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InterimRow {
+    /// Time from the start of the run, s.
+    pub time: f64,
+    /// Spin of the rotor, rad/s.
+    pub speed: f64,
+    /// Each auxiliary bearing.
+    pub bearings: Vec<InterimBearing>,
+}
+
 /// What a caller decides besides the scenario.
 pub struct Options<'a> {
     /// Number of threads; all cores if none.
@@ -12,6 +34,8 @@ pub struct Options<'a> {
     pub progress: &'a (dyn Fn(f64) + Sync),
     /// Who has the controllers that are not of the file; nobody where none may be.
     pub controllers: Option<&'a dyn Controllers>,
+    /// Called with the rows of the history as they are sampled, from any thread; of several members with those of the one that keeps them.
+    pub rows: Option<&'a (dyn Fn(Vec<InterimRow>) + Sync)>,
 }
 
 /// Whoever has controllers that a file names and does not describe.
@@ -42,6 +66,7 @@ impl<'a> Options<'a> {
             interrupt,
             progress: &|_| {},
             controllers: None,
+            rows: None,
         }
     }
 }

@@ -65,6 +65,8 @@ codes! {
     ChannelClock "AB0305"
     ChannelUnit "AB0306"
     OutputPlace "AB0307"
+    FolderInUse "AB0308"
+    PortInUse "AB0309"
     CaseDamaged "AB0310"
     UnknownQuantity "AB0340"
     DuplicateBearing "AB0401"

@@ -267,8 +267,16 @@ pub fn write(path: &Path, scenario: &Scenario, outcome: &Outcome) -> Result<()> 
 
 /// The directory that a run gets where none is asked for: `runs/NAME`, or `runs/NAME-2` and so on where that is taken.
 pub fn free_path(name: &str) -> PathBuf {
-    let first = Path::new("runs").join(name);
-    let others = (2..).map(|number| Path::new("runs").join(format!("{name}-{number}")));
+    free_path_in(Path::new(RUNS), name)
+}
+
+/// Folder of the run directories that nobody gave another place.
+pub const RUNS: &str = "runs";
+
+/// The same in a folder of run directories.
+pub fn free_path_in(runs: &Path, name: &str) -> PathBuf {
+    let first = runs.join(name);
+    let others = (2..).map(|number| runs.join(format!("{name}-{number}")));
     std::iter::once(first.clone())
         .chain(others)
         .find(|path| !exists(path) && !partial_of(path).is_some_and(|path| exists(&path)))

@@ -121,18 +121,24 @@ pub fn html(runs: &[PageRun]) -> String {
     )
 }
 
-/// All scripts with what begins them.
-fn script(start: &str) -> String {
+/// All scripts of the page of runs in one scope, with what begins them: another page may draw with them what this one draws.
+pub fn script(start: &str) -> String {
     format!(
         "\"use strict\";\n(() => {{\n{}{start}}})();\n",
         SCRIPTS.concat()
     )
 }
 
-/// What draws the rotor of a run wherever a page has a place for it.
-pub(super) fn drawing(run: &PageRun) -> String {
+/// A run as the scripts read it: the text of a JSON object, without single balls and with few rows.
+pub fn brief(run: &PageRun) -> String {
     let mut data = String::new();
     push_run(&mut data, run, LEAST_ROWS, false);
+    data
+}
+
+/// What draws the rotor of a run wherever a page has a place for it.
+pub(super) fn drawing(run: &PageRun) -> String {
+    let data = brief(run);
     format!(
         "<script type=\"application/json\" class=\"run\">{data}</script>\n<script>\n{}</script>\n",
         script(DRAWING)

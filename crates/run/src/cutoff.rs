@@ -38,6 +38,7 @@ fn both(scenario: &Scenario, time: f64, options: &Options) -> Result<Vec<Outcome
     let doubled = short.with(&[set("rotor.cutoff", 2.0 * cutoff, "rad/s")])?;
     let quiet = Options {
         progress: &|_| {},
+        rows: None,
         ..*options
     };
     let twice = built(&doubled)?;

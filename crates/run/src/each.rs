@@ -94,9 +94,8 @@ fn staged<'a>(
     }
     let unwatched = Options {
         threads: Some(1),
-        interrupt: options.interrupt,
-        progress: &|_| {},
         controllers: options.controllers,
+        ..Options::unwatched(options.interrupt)
     };
     let machine = match scenario.measured.is_empty() {
         true => build(scenario),

@@ -6,13 +6,17 @@
 use crate::bearing::warm::{Followed, Heated};
 use crate::following::{Following, Warmed};
 use crate::watch::Watch;
+use model::auxiliary_bearing::BearingAt;
+use model::auxiliary_bearing::probe::NORMAL_FORCE;
 use model::system::energy::{Balance, Content, Flows};
 use model::system::machine::record::Record;
 use model::system::machine::simulate::{Runs, Steps, simulate};
 use model::system::machine::{Mode, RotorMachine};
 use model::system::rig::Tap;
+use model::system::sampling::Row;
 use number::Level;
 use outcome::host;
+use outcome::options::{InterimBearing, InterimRow};
 use solve::{Ending, Flow, Observer, Settings, Step};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -119,6 +123,8 @@ pub struct Plan<'a> {
     pub interrupt: &'a AtomicBool,
     /// Called with the fraction done.
     pub progress: &'a (dyn Fn(f64) + Sync),
+    /// Called with sampled rows of the member that keeps them.
+    pub rows: Option<&'a (dyn Fn(Vec<InterimRow>) + Sync)>,
 }
 
 /// Runs members that lanes may share, those of one layout and the same laws, on the threads of the pool in which this is called; the
@@ -129,6 +135,7 @@ pub fn run(members: &[Member], plan: &Plan) -> Vec<Finished> {
         done: &done,
         members: members.len(),
         progress: plan.progress,
+        rows: plan.rows,
     };
     let chunk = |members: &[Member]| side_by_side(members, plan, &report);
     let threads = host::threads();
@@ -180,6 +187,7 @@ struct Report<'a> {
     done: &'a AtomicU64,
     members: usize,
     progress: &'a (dyn Fn(f64) + Sync),
+    rows: Option<&'a (dyn Fn(Vec<InterimRow>) + Sync)>,
 }
 
 /// A watch that also reports progress.
@@ -187,6 +195,8 @@ struct Watched<'a> {
     watch: Watch,
     report: &'a Report<'a>,
     reported: u64,
+    /// Rows that were shown while the run goes on.
+    shown: usize,
     end: f64,
 }
 
@@ -204,6 +214,7 @@ impl<'a> Watched<'a> {
             watch: Watch::of(member, record),
             report,
             reported: 0,
+            shown: 0,
             end,
         }
     }
@@ -221,12 +232,48 @@ impl<'a> Watched<'a> {
     }
 }
 
+impl Watched<'_> {
+    /// Shows the rows since the last time.
+    fn show(&mut self, machine: &RotorMachine) {
+        let Some(show) = self.report.rows else { return };
+        let fresh = self.watch.record.rows().skip(self.shown);
+        let rows: Vec<InterimRow> = fresh.map(|row| interim(machine, &row)).collect();
+        self.shown += rows.len();
+        if !rows.is_empty() {
+            show(rows);
+        }
+    }
+}
+
+/// A row as pictures of a run in progress show it.
+fn interim(machine: &RotorMachine, row: &Row) -> InterimRow {
+    let layout = machine.layout();
+    let of_bearing = |(k, at): (usize, &BearingAt)| {
+        let bearing = &machine.constants.bearings[k].bearing;
+        let rotor = machine.node(k, row.state).position;
+        let race = at.inner.centre().map(|channel| row.state[channel]);
+        let own = &row.state[at.own()];
+        let ball = |ball| [bearing.azimuth(own, ball), row.probe[at.detail + ball]];
+        InterimBearing {
+            rotor: [rotor.x - race[0], rotor.y - race[1]],
+            force: row.probe[at.probe(NORMAL_FORCE)],
+            balls: (0..bearing.balls()).map(ball).collect(),
+        }
+    };
+    InterimRow {
+        time: row.time,
+        speed: row.state[layout.rotor.spin()],
+        bearings: layout.bearings.iter().enumerate().map(of_bearing).collect(),
+    }
+}
+
 impl Observer<RotorMachine> for Watched<'_> {
     fn step(&mut self, step: &mut Step<RotorMachine>) -> Flow {
         let thousandths = (1000.0 * step.end / self.end) as u64;
         if thousandths > self.reported {
             self.advance(thousandths);
             self.reported = thousandths;
+            self.show(step.machine);
         }
         self.watch.step(step)
     }

@@ -156,6 +156,7 @@ fn simulate(
             taps: &[],
             interrupt: &AtomicBool::new(false),
             progress: &|_| {},
+            rows: None,
         },
     );
     match finished.pop() {

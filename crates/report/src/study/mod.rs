@@ -129,6 +129,11 @@ impl Directory {
         })
     }
 
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Computes what is missing, part by part, and writes what all members say. `progress` is told the members done.
     ///
     /// # Errors

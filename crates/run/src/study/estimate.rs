@@ -306,6 +306,7 @@ impl<const N: usize> Fit<'_, N> {
             interrupt: self.options.interrupt,
             progress: &|_| {},
             controllers: self.options.controllers,
+            rows: None,
         };
         let scenario = file.scenario.with(&values).ok()?;
         let outcome = crate::built(&scenario).ok()?.computed(&quiet);

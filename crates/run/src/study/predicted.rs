@@ -81,6 +81,7 @@ impl Study {
             interrupt: options.interrupt,
             progress: &|_| {},
             controllers: options.controllers,
+            rows: None,
         };
         // two rows in each period of the bandwidth
         let tested = self.file.scenario.with(&self.drawn(first).values).ok()?;

@@ -54,10 +54,12 @@ pub const OF_MACHINES: [&str; 2] = [EVENT, FORCE];
 pub struct PartKind {
     /// Its word: `section` of `[[rotor.section]]`.
     pub word: &'static str,
-    pub(crate) doc: &'static str,
+    /// What it is, in one or two sentences.
+    pub doc: &'static str,
     /// Whether a single one may stand as a plain table.
     pub alone: bool,
-    pub(crate) keys: &'static [Key],
+    /// Its keys.
+    pub keys: &'static [Key],
     /// Parts of the starting file: values of keys as written, without quotes.
     pub starting: &'static [&'static [(&'static str, &'static str)]],
 }
@@ -136,7 +138,8 @@ macro_rules! coefficients {
     };
 }
 
-pub(crate) const PARTS: &[PartKind] = &[
+/// All kinds of parts, in the order of a file.
+pub const PARTS: &[PartKind] = &[
     PartKind {
         word: "material",
         doc: "A material of your own. Known by name are steel, stainless_steel, titanium, aluminium and nickel_alloy.",

@@ -154,6 +154,7 @@ fn together(
         within: events::within(&built.drop),
         interrupt: options.interrupt,
         progress: &of_drop,
+        rows: options.rows,
     };
     let finished = ensemble::run(&members, &plan);
     let done = Mutex::new(vec![0.0; group.len()]);

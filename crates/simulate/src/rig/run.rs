@@ -81,6 +81,7 @@ impl<'a> RigRun<'a> {
             within: Vec::new(),
             interrupt: options.interrupt,
             progress: options.progress,
+            rows: options.rows,
         };
         let member = Member {
             following: Following::on_rig(given.warm, given.bearing).map(Into::into),

@@ -1,0 +1,301 @@
+//! The runs of a folder as a table: inputs that differ, first results, limits, date, and whether the input has changed since.
+
+use crate::folder::{Folder, changed, stamp};
+use crate::jobs::run_name;
+use auxbear::report::directory::{page_run, read};
+use auxbear::report::page;
+use auxbear::{BuiltIn, Scenario};
+use serde::de::{MapAccess, Visitor};
+use serde::{Deserialize, Deserializer};
+use serde_json::{Map, Value, json};
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::Path;
+use std::sync::{Mutex, PoisonError};
+use std::{fmt, fs, io};
+
+/// Most inputs that a table has as columns.
+const MOST_INPUTS: usize = 12;
+
+/// What was read of runs, by their directory and its last change.
+#[derive(Default)]
+pub struct Runs {
+    read: Mutex<BTreeMap<String, (u128, Value)>>,
+    /// Values that files give now, by name and last change.
+    files: Mutex<BTreeMap<String, (u128, Option<Given>)>>,
+}
+
+/// Paths with their values as written.
+type Given = BTreeMap<String, String>;
+
+impl Runs {
+    /// Every run and study of the folder, the last first, with the inputs in which they differ.
+    pub fn table(&self, folder: &Folder) -> Value {
+        let files: BTreeMap<String, String> = folder
+            .files()
+            .into_iter()
+            .map(|file| (run_name(&file.name), file.name))
+            .collect();
+        let mut rows: Vec<Value> = Vec::new();
+        for (name, path) in directories(folder) {
+            let summary = path.join("summary.json");
+            let at = stamp(&summary);
+            let mut cache = self.read.lock().unwrap_or_else(PoisonError::into_inner);
+            let known = cache
+                .get(&name)
+                .filter(|(then, _)| *then == at)
+                .map(|(_, row)| row.clone());
+            let mut row = match known {
+                Some(row) => row,
+                None => {
+                    let row = row_of(&path, &summary)
+                        .unwrap_or_else(|error| json!({ "broken": error.to_string() }));
+                    cache.insert(name.clone(), (at, row.clone()));
+                    row
+                }
+            };
+            drop(cache);
+            row["directory"] = json!(name);
+            row["date"] = json!(changed(&summary));
+            if let Some(file) = files.get(stem(&name)) {
+                row["file"] = json!(file);
+                row["differs"] = json!(self.differences(folder, file, &row));
+            }
+            rows.push(row);
+        }
+        rows.sort_by_key(|row| std::cmp::Reverse(row["date"].as_u64()));
+        let differing = differing(&rows);
+        for row in &mut rows {
+            // the table shows those alone
+            let inputs = row["inputs"].take();
+            let own = inputs.as_object().map(|inputs| {
+                let own = inputs.iter().filter(|(path, _)| differing.contains(*path));
+                own.map(|(path, value)| (path.clone(), value.clone()))
+                    .collect::<Map<_, _>>()
+            });
+            row["inputs"] = json!(own);
+        }
+        json!({ "rows": rows, "inputs": differing })
+    }
+
+    /// In which inputs a file differs now from what a run was computed with: path, then, now. None where it cannot be read now.
+    fn differences(&self, folder: &Folder, file: &str, row: &Value) -> Option<Vec<[String; 3]>> {
+        let path = folder.root().join(file);
+        let at = stamp(&path);
+        let mut cache = self.files.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = cache.get(file).filter(|(then, _)| *then == at);
+        let now = match known {
+            Some((_, now)) => now.clone(),
+            None => {
+                let now = given(&path);
+                cache.insert(file.to_string(), (at, now.clone()));
+                now
+            }
+        }?;
+        let then = row["inputs"].as_object()?;
+        let text = |value: Option<&Value>| {
+            value
+                .and_then(Value::as_str)
+                .unwrap_or("not given")
+                .to_string()
+        };
+        let changed = now.iter().filter_map(|(path, value)| {
+            let before = text(then.get(path));
+            (before != *value).then(|| [path.clone(), before, value.clone()])
+        });
+        Some(changed.collect())
+    }
+}
+
+/// What the file of a scenario gives now, as a run's summary says it.
+fn given(path: &Path) -> Option<Given> {
+    let scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
+    let nothing = auxbear::Outcome {
+        system: scenario.system.name().word(),
+        pictures: vec![crate::check::no_picture()],
+        ..auxbear::Outcome::default()
+    };
+    let run = page_run("", &scenario, &nothing).ok()?;
+    let summary: Value = serde_json::from_str(&run.summary_json).ok()?;
+    Some(inputs_of(&summary))
+}
+
+/// Inputs that a summary names, but for those that change no result.
+fn inputs_of(summary: &Value) -> Given {
+    let inputs = summary["inputs"].as_array().into_iter().flatten();
+    let pair = |input: &Value| {
+        Some((
+            input["path"].as_str()?.to_string(),
+            input["value"].as_str()?.to_string(),
+        ))
+    };
+    let words = ["format", "title", "description"];
+    inputs
+        .filter_map(pair)
+        .filter(|(path, _)| !words.contains(&path.as_str()))
+        .collect()
+}
+
+/// Name of a run directory without the number of a repetition.
+fn stem(directory: &str) -> &str {
+    let name = directory.rsplit('/').next().unwrap_or(directory);
+    match name.rsplit_once('-') {
+        Some((stem, number)) if number.parse::<u32>().is_ok() => stem,
+        _ => name,
+    }
+}
+
+/// Directories of finished runs: those below `runs`, and others two steps below the folder.
+fn directories(folder: &Folder) -> Vec<(String, std::path::PathBuf)> {
+    let mut found = Vec::new();
+    let mut look = vec![(String::new(), folder.root().to_path_buf())];
+    while let Some((name, path)) = look.pop() {
+        let entries = fs::read_dir(&path).into_iter().flatten().flatten();
+        for entry in entries {
+            let own = entry.file_name().to_string_lossy().into_owned();
+            let below = if name.is_empty() {
+                own.clone()
+            } else {
+                format!("{name}/{own}")
+            };
+            let path = entry.path();
+            let unfinished = own.ends_with(".partial") || own.starts_with('.');
+            if unfinished || !path.is_dir() || folder.path(&below).is_err() {
+                continue;
+            }
+            if path.join("summary.json").is_file() {
+                found.push((below, path));
+            } else if below.matches('/').count() == 0 {
+                look.push((below, path));
+            }
+        }
+    }
+    found
+}
+
+/// What the table has of a run.
+fn row_of(path: &Path, summary: &Path) -> io::Result<Value> {
+    let text = fs::read_to_string(summary)?;
+    let summary: Value = serde_json::from_str(&text)?;
+    let study = path.join("study.toml").exists();
+    let quantities = serde_json::from_str::<Ordered>(&text)?.quantities.0;
+    let headline = |(name, quantity): &(String, Value)| {
+        let words = quantity["shown"]["headline"].as_str()?;
+        let short = name.rsplit('.').next().unwrap_or(name);
+        Some(
+            json!({ "name": name, "short": short.replace('_', " "), "words": words, "value": quantity["value"], "unit": quantity["unit"] }),
+        )
+    };
+    let results: Vec<Value> = quantities.iter().filter_map(headline).collect();
+    let limits = summary["limits"].as_array();
+    let verdict = |word: &str| {
+        limits
+            .into_iter()
+            .flatten()
+            .filter(|limit| limit["verdict"] == word)
+            .count()
+    };
+    let inputs = inputs_of(&summary);
+    let shown = |name: &str| path.join(name).is_file();
+    Ok(json!({
+        "title": summary["title"],
+        "system": if study { json!("study") } else { summary["system"].clone() },
+        "complete": summary["complete"],
+        "stop": summary["stop"]["text"],
+        "results": results,
+        "limits": { "pass": verdict("pass"), "fail": verdict("fail") },
+        "warnings": summary["warnings"].as_array().map_or(0, Vec::len),
+        "version": summary["version"],
+        "document": shown("document.html"),
+        "study": study,
+        "inputs": inputs,
+    }))
+}
+
+/// Results of a summary in the order of the report.
+#[derive(Deserialize)]
+struct Ordered {
+    quantities: Entries,
+}
+
+/// Entries of an object in their order.
+struct Entries(Vec<(String, Value)>);
+
+impl<'de> Deserialize<'de> for Entries {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Entries, D::Error> {
+        struct InOrder;
+        impl<'de> Visitor<'de> for InOrder {
+            type Value = Entries;
+            fn expecting(&self, out: &mut fmt::Formatter) -> fmt::Result {
+                out.write_str("an object")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries, A::Error> {
+                let mut entries = Vec::new();
+                while let Some(entry) = map.next_entry()? {
+                    entries.push(entry);
+                }
+                Ok(Entries(entries))
+            }
+        }
+        deserializer.deserialize_map(InOrder)
+    }
+}
+
+/// Inputs in which runs of one system differ, the first so many.
+fn differing(rows: &[Value]) -> BTreeSet<String> {
+    let mut values: BTreeMap<(&str, &str), (usize, BTreeSet<&str>)> = BTreeMap::new();
+    let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
+    for row in rows {
+        let system = row["system"].as_str().unwrap_or_default();
+        *counts.entry(system).or_default() += 1;
+        for (path, value) in row["inputs"].as_object().into_iter().flatten() {
+            let own = values.entry((system, path)).or_default();
+            own.0 += 1;
+            own.1.insert(value.as_str().unwrap_or_default());
+        }
+    }
+    let differ = values
+        .iter()
+        .filter(|((system, _), (count, own))| own.len() > 1 || *count < counts[system]);
+    differ
+        .map(|((_, path), _)| path.to_string())
+        .take(MOST_INPUTS)
+        .collect()
+}
+
+/// The page of runs side by side.
+///
+/// # Errors
+/// Directories that are no runs.
+pub fn compared(folder: &Folder, names: &[String]) -> Result<String, String> {
+    let run = |name: &String| read(&folder.path(name)?).map_err(|problem| problem.to_string());
+    let runs = names.iter().map(run).collect::<Result<Vec<_>, _>>()?;
+    Ok(page::html(&runs))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_repetition_belongs_to_the_file_of_the_first() {
+        for (directory, name) in [
+            ("runs/drop", "drop"),
+            ("runs/drop-12", "drop"),
+            ("runs/my-drop", "my-drop"),
+            ("runs/old-drop-2", "old-drop"),
+        ] {
+            assert_eq!(stem(directory), name);
+        }
+    }
+
+    #[test]
+    fn only_inputs_that_differ_within_a_system_are_columns() {
+        let row = |system: &str, a: &str, b: &str| json!({ "system": system, "inputs": { "a": a, "b": b } });
+        let rows = [
+            row("drop", "1", "2"),
+            row("drop", "1", "3"),
+            row("rotor", "9", "9"),
+        ];
+        assert_eq!(differing(&rows).into_iter().collect::<Vec<_>>(), ["b"]);
+    }
+}
