@@ -241,7 +241,8 @@ fn draw_force(svg: &mut String, run: &PageRun) {
     };
     let points = curve_points(time, force, 1.0);
     let top = 1.06 * highest(&points);
-    let panel = Panel::of_run(470.0, 310.0, span(&points), (0.0, top.max(1e-9)));
+    let top = if top > 0.0 { top } else { 1.0 };
+    let panel = Panel::of_run(470.0, 310.0, span(&points), (0.0, top));
     panel.axes(svg, "Contact force", "time [ms]", "force [N]");
     panel.curve(svg, &points, ROTOR, "stroke-width=\"1.1\"");
 }
