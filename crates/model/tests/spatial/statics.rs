@@ -409,7 +409,7 @@ fn a_set_at_rest_carries_its_preload_on_both_sides() {
             pitch_diameter: 36e-3,
             curvatures: [0.52; 2],
             free_angle: ALPHA,
-            contacts: contacts.clone(),
+            contacts,
         };
         let closed = geometry.closed_by(preload).unwrap();
         let rows = |closed| {

@@ -276,9 +276,10 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
     assert_eq!(alone.count(), 1, "{codes:?}");
 
     // x and y exchanged, and y of the other sign
-    let mirrored = |curve: &mut Curve| match curve.name.as_str() {
-        "rotor.y" => curve.values.iter_mut().for_each(|own| *own = -*own),
-        _ => {}
+    let mirrored = |curve: &mut Curve| {
+        if curve.name == "rotor.y" {
+            curve.values.iter_mut().for_each(|own| *own = -*own);
+        }
     };
     let (codes, _) = damaged(&scenario, &run, mirrored);
     assert!(
