@@ -11,7 +11,7 @@ mod before;
 mod cutoff;
 mod each;
 mod known;
-pub mod measured;
+mod measured;
 pub mod study;
 #[cfg(test)]
 mod tests;
@@ -22,6 +22,7 @@ pub use analyse::stiffness;
 use analyse::{identify, signals};
 use analyse::{rotor, torque};
 pub use each::each;
+pub use measured::Fitted;
 pub use outcome::host::start_pool;
 pub use outcome::options::Options;
 pub use outcome::{self, Outcome};

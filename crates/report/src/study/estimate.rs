@@ -4,7 +4,7 @@ use super::bars::{WIDTH, picture, room};
 use super::cells::{amount, scaled, short, table};
 use crate::page::escape_text as plain;
 use crate::picture::{Panel, dot};
-use run::measured::Fitted;
+use run::Fitted;
 use run::study::answer::Answer;
 use run::study::estimate::{Estimate, Estimated};
 use std::fmt::Write;
