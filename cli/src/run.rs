@@ -5,6 +5,7 @@ use crate::exit::Exit;
 use crate::progress::{Busy, Progress};
 use crate::{console, summary};
 use auxbear::outcome::Stop;
+use auxbear::outcome::options::Controllers;
 use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::NewDirectory;
 use auxbear::run::Options;
@@ -35,6 +36,14 @@ pub fn perform(wish: &Run) -> Result<Exit> {
     execute(&scenario, &path, threads, wish.output.quiet)
 }
 
+/// Who has controllers that a file names.
+pub fn controllers() -> Option<&'static dyn Controllers> {
+    #[cfg(feature = "fmu")]
+    return Some(&auxbear_fmu::controller::Units);
+    #[cfg(not(feature = "fmu"))]
+    return None;
+}
+
 /// The number of threads asked for.
 pub fn threads(text: &str) -> Result<NonZeroUsize> {
     text.trim().parse().map_err(|_| {
@@ -57,10 +66,11 @@ pub fn execute(
         threads: threads.map(usize::from),
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
-        controllers: Some(&auxbear_fmu::controller::Units),
+        controllers: controllers(),
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
+    #[cfg(feature = "fmu")]
     auxbear_fmu::controller::check(scenario).inspect_err(|_| progress.end())?;
     drop(busy);
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;

@@ -156,7 +156,10 @@ impl Folder {
     fn of(file: &str) -> Result<Self, String> {
         let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
         let name = format!("auxbear-unit-{}-{number}", std::process::id());
-        let folder = Folder(std::env::temp_dir().join(name));
+        let path = std::env::temp_dir().join(name);
+        // one that is there is somebody else's
+        fs::create_dir(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let folder = Folder(path);
         let opened = File::open(file).map_err(|error| error.to_string())?;
         let zip = zip::ZipArchive::new(opened);
         let unpacked = zip.and_then(|mut zip| zip.extract(&folder.0));
