@@ -32,6 +32,8 @@ pub fn perform(wish: &Run) -> Result<Exit> {
     // As an override it is checked like any value, and the resolved file repeats it.
     sets.extend(wish.repeat.iter().map(|n| format!("repeat.count={n}")));
     let scenario = Scenario::read(&wish.given.file, &sets, &BuiltIn)?;
+    #[cfg(feature = "fmu")]
+    let scenario = auxbear_fmu::controller::checked(&scenario)?.unwrap_or(scenario);
     let path = wish.output.place(&wish.given.name());
     execute(&scenario, &path, threads, wish.output.quiet)
 }
@@ -70,8 +72,6 @@ pub fn execute(
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
-    #[cfg(feature = "fmu")]
-    auxbear_fmu::controller::check(scenario).inspect_err(|_| progress.end())?;
     drop(busy);
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {

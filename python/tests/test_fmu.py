@@ -1,11 +1,13 @@
 """Machines as co-simulation units, driven by FMPy, another importer than ours."""
 
 import ctypes
+import hashlib
 import json
 import math
 import os
 import re
 import subprocess
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -333,9 +335,11 @@ def test_a_unit_as_controller_gives_the_numbers_of_the_built_in_one(tmp_path, ve
         assert np.nanmax(np.abs(ours - theirs)) <= 1e-12 * np.nanmax(np.abs(theirs)), name
     controlled.write(tmp_path / "run")
     assert (tmp_path / "run" / unit.name).read_bytes() == unit.read_bytes()
+    resolved = (tmp_path / "run" / "scenario.toml").read_text(encoding="utf-8")
+    assert f"sha256:{hashlib.sha256(unit.read_bytes()).hexdigest()}" in resolved
 
 
-def test_units_that_cannot_control_end_the_run_and_say_why(tmp_path) -> None:
+def test_units_that_cannot_control_are_refused(tmp_path) -> None:
     few = controller(tmp_path, "2", axes=2)
     text = tmp_path / "text.fmu"
     text.write_text("no unit", encoding="utf-8")
@@ -344,9 +348,30 @@ def test_units_that_cannot_control_end_the_run_and_say_why(tmp_path) -> None:
         (text, "is no unit that can be unpacked"),
         (tmp_path / "none.fmu", "No such file"),
     ):
-        result = machine().set("levitation.controller.fmu", str(file)).run()
-        assert not result.complete and why in str(result.stop), result.stop
-    standing = machine().set("levitation.controller.fmu", str(few))
+        with pytest.raises(auxbear.Problem, match=why):
+            machine().set("levitation.controller.fmu", str(file)).run()
+    other = machine().set("levitation.controller.fmu", str(few)).set("levitation.controller.fmu_hash", "sha256:00")
+    with pytest.raises(auxbear.Problem, match="another one is given"):
+        other.run()
     with pytest.raises(auxbear.Problem, match="sampling_period"):
         auxbear.Scenario.load(SCENARIOS / "amb_rig_drop.toml").set("levitation.controller.fmu", str(few)).check()
-    assert "fmu" in standing.toml()
+    # studies ask while they run: members end and say why
+    few_inputs = machine().set("levitation.controller.fmu", str(few))
+    _, failed = few_inputs.evaluate([{"rotor.speed": "11000 rpm"}])
+    assert "2 inputs" in failed[0]
+
+
+def test_a_unit_that_may_be_there_once_is_refused_for_more_members(tmp_path) -> None:
+    unit = controller(tmp_path, "2")
+    alone = tmp_path / "alone.fmu"
+    with zipfile.ZipFile(unit) as given, zipfile.ZipFile(alone, "w") as written:
+        for name in given.namelist():
+            content = given.read(name)
+            if name == "modelDescription.xml":
+                content = content.replace(b'canBeInstantiatedOnlyOncePerProcess="false"', b'canBeInstantiatedOnlyOncePerProcess="true"')
+                assert b'OncePerProcess="true"' in content
+            written.writestr(name, content)
+    scenario = machine().set("run.duration", "1 ms").set("levitation.controller.fmu", str(alone))
+    assert scenario.run().complete
+    with pytest.raises(auxbear.Problem, match="may be instantiated once in a process"):
+        scenario.run(repeat=2)

@@ -231,3 +231,32 @@ fn commands_of_each_kind_begin_with_what_holds_the_rotor() {
         );
     }
 }
+
+/// Temperatures that act on the motion, linearly implicit steps, faults of magnets: what is not an input is as in the run.
+#[test]
+fn without_inputs_it_has_the_bits_of_any_run() {
+    let warm = include_str!("../../../scenarios/drop_until_standstill.toml");
+    let warm = parsed(warm, &["run.until=duration", "run.duration=0.1 s"]).unwrap();
+    let stiff = [
+        "run.duration=15 ms",
+        "bearing.traction.reference_speed=0.001 m/s",
+    ];
+    let stiff = parsed(&auxbear::template("drop").unwrap(), &stiff).unwrap();
+    let lost = include_str!("../../../scenarios/amb_rig_drop.toml");
+    let lost = parsed(lost, &["run.duration=15 ms"]).unwrap();
+    for scenario in [warm, stiff, lost] {
+        let whole = run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+        let mut driven = build(&scenario).unwrap().driven(USUAL).unwrap();
+        driven.advance(f64::INFINITY, &AtomicBool::new(false));
+        let outcome = driven.outcome();
+        assert_eq!(
+            (outcome.work.steps, outcome.work.method),
+            (whole.work.steps, whole.work.method)
+        );
+        // a rotor that does not bend has a source more, of forces from outside
+        let ours = bits(&outcome);
+        for theirs in bits(&whole) {
+            assert!(ours.contains(&theirs), "{:?}: {}", scenario.title, theirs.0);
+        }
+    }
+}
