@@ -67,7 +67,7 @@ pub fn checked(scenario: &Scenario) -> Result<Option<Scenario>, Box<Problem>> {
     let members = scenario.drop().map_or(1, |drop| drop.repeat.count);
     let found = match (hash(file), &unit.hash) {
         (Ok(hash), Some(given)) if hash != *given => {
-            Err(format!("has the hash {hash}, and another one is given"))
+            Err(format!("another one than that of fmu_hash: {hash}"))
         }
         (hash, _) => hash.and_then(|hash| {
             let alone = Unit::start(file)?.fits(axes, axes)?;
@@ -84,7 +84,9 @@ pub fn checked(scenario: &Scenario) -> Result<Option<Scenario>, Box<Problem>> {
         Err(why) => {
             let needed = "a unit of FMI 2.0 or 3.0 for co-simulation is needed, with a signal of each sensor axis as input and a command of \
                           each magnet axis as output, for this platform";
-            let problem = problem_at(Code::Conflict, key, format!("{file}: {why}"), needed);
+            // the path is in the file
+            let name = Path::new(file).file_name().unwrap_or_default().display();
+            let problem = problem_at(Code::Conflict, key, format!("{name}: {why}"), needed);
             Err(scenario.locate(problem))
         }
     }
