@@ -2,7 +2,7 @@
 
 use crate::package::{self, Resources};
 use crate::variables::{self, Choice, Kind, Role, Variable};
-use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, write_directory};
+use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, build, write_directory};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -389,8 +389,11 @@ impl Instance {
         let Some((driven, _)) = &mut self.driven else {
             return Ok(());
         };
-        let outcome = driven.outcome();
-        let written = write_directory(Path::new(&folder), driven.scenario(), &outcome);
+        let scenario = driven.scenario().clone();
+        let written = build(&scenario).and_then(|machine| {
+            let outcome = machine.outcome(driven);
+            write_directory(Path::new(&folder), &scenario, &outcome)
+        });
         written.map_err(|problem| problem.to_string())
     }
     /// Back to where it was instantiated.

@@ -353,7 +353,7 @@ impl Driven {
     /// How it would have ended here.
     fn ending(&self) -> Ending {
         self.driver.ending().unwrap_or_else(|| Ending {
-            stop: solve::Stop::Finished,
+            stop: solve::Stop::Interrupted,
             time: self.driver.time(),
             state: self.driver.state(),
             work: self.driver.work(),
