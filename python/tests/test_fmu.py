@@ -62,7 +62,7 @@ def exported(tmp_path_factory):
 class Unit:
     """A unit of either version, by names."""
 
-    def __init__(self, file: Path, folder: Path, **start):
+    def __init__(self, file: Path, folder: Path, *, instantiated=(), **start):
         self.description = fmpy.read_model_description(str(file))
         self.three = self.description.fmiVersion.startswith("3")
         self.references = {v.name: v.valueReference for v in self.description.modelVariables}
@@ -76,7 +76,7 @@ class Unit:
             instanceName="machine",
         )
         self.own = (FMU3Slave if self.three else FMU2Slave)(**words)
-        self.own.instantiate()
+        self.own.instantiate(**dict(instantiated))
         for name, value in start.items():
             self.set(name, value)
         if self.three:
@@ -226,6 +226,19 @@ def test_a_state_gives_the_same_bits(exported, tmp_path, version) -> None:
     (other.own.setFMUState if three else other.own.setFMUstate)(again)
     assert on(other) == first
     other.end()
+    unit.end()
+
+
+@pytest.mark.parametrize("allowed", [False, True])
+def test_a_step_returns_early_at_a_contact_where_the_importer_allows_that(exported, tmp_path, allowed) -> None:
+    more = {"earlyReturnAllowed": allowed}
+    unit = Unit(exported["3"], tmp_path, instantiated=more, stop_at_contacts=True)
+    now, stops = 0.0, []
+    while now < END:
+        _, _, early, now = unit.own.doStep(currentCommunicationPoint=now, communicationStepSize=END - now)
+        stops.append(now)
+        assert early == (now < END)
+    assert (len(stops) > 3) == allowed and stops[-1] == END
     unit.end()
 
 
