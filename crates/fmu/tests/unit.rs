@@ -4,7 +4,7 @@ use auxbear::scenario::BuiltIn;
 use auxbear::{Commands, Scenario};
 use auxbear_fmu::Version;
 use auxbear_fmu::interface_2::*;
-use auxbear_fmu::package::{Library, Unit};
+use auxbear_fmu::package::{Library, Unit, written};
 use auxbear_fmu::variables::{Role, Variable};
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs;
@@ -399,6 +399,9 @@ fn what_cannot_be_a_unit_is_not_written() {
     .unwrap();
     let why = refused(&torque, Commands::Current, &file, &[]);
     assert!(why.contains("a drop or a machine is needed"), "{why}");
+    let why = written(&machine(&[]), ("current", "2"), &[], &file);
+    let why = why.err().unwrap().to_string();
+    assert!(why.contains("cargo build --release"), "{why}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     fs::write(&file, "mine").unwrap();
     let why = refused(&machine(&[]), Commands::Current, &file, &[]);
