@@ -2,10 +2,10 @@
 
     AUXBEAR_COMMAND=target/release/auxbear python3 fmu_stepped.py
 
-The run has its own sampled controllers; the unit gets constant commands and loses its power at once, so that both compute the same drop: the time
-compared is that of steps with four signals read and four commands set in each, not that of a controller. Prints one JSON object of CPU times, s:
-of a run without its start and its report (a long one less a short one), of the unit without its instantiation, and what FMPy alone takes
-of that, from a unit that does not move.
+The run has its own sampled controllers, the unit the same ones in this script: four signals are read and four commands set in each step.
+Prints one JSON object of CPU times, s:
+of a run without its start and its report (a long one less a short one), of the unit for the same time, and what reading and setting take
+of that.
 """
 
 import json

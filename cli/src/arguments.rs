@@ -39,6 +39,7 @@ pub enum Command {
     /// Show the dynamic stiffness of the mounts of a drop or machine over frequency, fit O-ring branches to a measured one
     Mount(Mount),
     /// Write the machine of a drop or machine file without its controllers as a co-simulation unit, FMI 2.0 or 3.0
+    #[cfg(feature = "fmu")]
     Fmu(Fmu),
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),
@@ -227,6 +228,7 @@ pub struct Mount {
     pub output: Output,
 }
 
+#[cfg(feature = "fmu")]
 #[derive(Debug, Args)]
 pub struct Fmu {
     #[command(flatten)]

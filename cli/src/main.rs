@@ -7,6 +7,7 @@ mod bearings;
 mod console;
 mod digits;
 mod exit;
+#[cfg(feature = "fmu")]
 mod fmu;
 mod import;
 mod limits;
@@ -96,6 +97,7 @@ fn perform(command: &Command) -> Result<Exit> {
         Command::Rotor(wish) => return measured::perform(wish, SystemName::Rotor),
         Command::Mount(wish) => return mount::perform(wish),
         Command::Import(wish) => import::perform(wish)?,
+        #[cfg(feature = "fmu")]
         Command::Fmu(wish) => fmu::perform(wish)?,
         Command::Check(given) => {
             let scenario = given.read()?;

@@ -35,7 +35,7 @@ pub fn perform(wish: &Qualify) -> Result<Exit> {
         threads: threads.map(usize::from),
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
-        controllers: Some(&auxbear_fmu::controller::Units),
+        controllers: run::controllers(),
         rows: None,
     };
     let told = Mutex::new(begin);

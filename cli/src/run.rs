@@ -5,6 +5,7 @@ use crate::exit::Exit;
 use crate::progress::{Busy, Progress};
 use crate::{console, summary};
 use auxbear::outcome::Stop;
+use auxbear::outcome::options::Controllers;
 use auxbear::problem::{Code, Problem, Result};
 use auxbear::report::directory::NewDirectory;
 use auxbear::run::Options;
@@ -31,8 +32,18 @@ pub fn perform(wish: &Run) -> Result<Exit> {
     // As an override it is checked like any value, and the resolved file repeats it.
     sets.extend(wish.repeat.iter().map(|n| format!("repeat.count={n}")));
     let scenario = Scenario::read(&wish.given.file, &sets, &BuiltIn)?;
+    #[cfg(feature = "fmu")]
+    let scenario = auxbear_fmu::controller::checked(&scenario)?.unwrap_or(scenario);
     let path = wish.output.place(&wish.given.name());
     execute(&scenario, &path, threads, wish.output.quiet)
+}
+
+/// Who has controllers that a file names.
+pub fn controllers() -> Option<&'static dyn Controllers> {
+    #[cfg(feature = "fmu")]
+    return Some(&auxbear_fmu::controller::Units);
+    #[cfg(not(feature = "fmu"))]
+    return None;
 }
 
 /// The number of threads asked for.
@@ -57,12 +68,11 @@ pub fn execute(
         threads: threads.map(usize::from),
         interrupt: &INTERRUPT,
         progress: &|fraction| progress.show(fraction),
-        controllers: Some(&auxbear_fmu::controller::Units),
+        controllers: controllers(),
         rows: None,
     };
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
-    auxbear_fmu::controller::check(scenario).inspect_err(|_| progress.end())?;
     drop(busy);
     let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
     if let Ok(mut partial) = PARTIAL.lock() {

@@ -57,7 +57,7 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
         threads: threads.map(usize::from),
         interrupt: &run::INTERRUPT,
         progress: &|_| {},
-        controllers: Some(&auxbear_fmu::controller::Units),
+        controllers: run::controllers(),
         rows: None,
     };
     let done = directory.run(&options, &|members| pace.show(members))?;

@@ -12,7 +12,7 @@ use auxbear::run::{Machine, build, of_other_cases};
 use auxbear::scenario::{self, BuiltIn};
 use auxbear::study::evaluate;
 use auxbear::units;
-use auxbear_fmu::package;
+use auxbear_fmu::{controller, package};
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use std::collections::BTreeMap;
@@ -103,14 +103,13 @@ impl Scenario {
         threads: Option<NonZeroUsize>,
         progress: Option<Py<PyAny>>,
     ) -> PyResult<Outcome> {
-        let scenario = self.0.clone();
+        let checked = controller::checked(&self.0).map_err(|problem| raised(py, problem))?;
+        let own = checked.map_or_else(|| self.0.clone(), Arc::new);
+        let scenario = own.clone();
         let found = watched(py, threads, progress, PATIENCE, move |options, _| {
             build(&scenario).map(|machine| machine.run(options))
         })?;
-        Outcome::of(
-            self.0.clone(),
-            found.map_err(|problem| raised(py, problem))?,
-        )
+        Outcome::of(own, found.map_err(|problem| raised(py, problem))?)
     }
 
     /// Writes it as a co-simulation unit.

@@ -1,11 +1,13 @@
 """Machines as co-simulation units, driven by FMPy, another importer than ours."""
 
 import ctypes
+import hashlib
 import json
 import math
 import os
 import re
 import subprocess
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -60,7 +62,7 @@ def exported(tmp_path_factory):
 class Unit:
     """A unit of either version, by names."""
 
-    def __init__(self, file: Path, folder: Path, **start):
+    def __init__(self, file: Path, folder: Path, *, instantiated=(), **start):
         self.description = fmpy.read_model_description(str(file))
         self.three = self.description.fmiVersion.startswith("3")
         self.references = {v.name: v.valueReference for v in self.description.modelVariables}
@@ -74,7 +76,7 @@ class Unit:
             instanceName="machine",
         )
         self.own = (FMU3Slave if self.three else FMU2Slave)(**words)
-        self.own.instantiate()
+        self.own.instantiate(**dict(instantiated))
         for name, value in start.items():
             self.set(name, value)
         if self.three:
@@ -227,6 +229,19 @@ def test_a_state_gives_the_same_bits(exported, tmp_path, version) -> None:
     unit.end()
 
 
+@pytest.mark.parametrize("allowed", [False, True])
+def test_a_step_returns_early_at_a_contact_where_the_importer_allows_that(exported, tmp_path, allowed) -> None:
+    more = {"earlyReturnAllowed": allowed}
+    unit = Unit(exported["3"], tmp_path, instantiated=more, stop_at_contacts=True)
+    now, stops = 0.0, []
+    while now < END:
+        _, _, early, now = unit.own.doStep(currentCommunicationPoint=now, communicationStepSize=END - now)
+        stops.append(now)
+        assert early == (now < END)
+    assert (len(stops) > 3) == allowed and stops[-1] == END
+    unit.end()
+
+
 def test_driven_at_other_points_it_is_one_more_of_its_perturbed_runs(tmp_path) -> None:
     """Results that the first contacts decide agree to the tolerance; of those that scatter, 2 in 9 lie outside the range of 8 others."""
     longer, changes = 0.06, []
@@ -333,9 +348,11 @@ def test_a_unit_as_controller_gives_the_numbers_of_the_built_in_one(tmp_path, ve
         assert np.nanmax(np.abs(ours - theirs)) <= 1e-12 * np.nanmax(np.abs(theirs)), name
     controlled.write(tmp_path / "run")
     assert (tmp_path / "run" / unit.name).read_bytes() == unit.read_bytes()
+    resolved = (tmp_path / "run" / "scenario.toml").read_text(encoding="utf-8")
+    assert f"sha256:{hashlib.sha256(unit.read_bytes()).hexdigest()}" in resolved
 
 
-def test_units_that_cannot_control_end_the_run_and_say_why(tmp_path) -> None:
+def test_units_that_cannot_control_are_refused(tmp_path) -> None:
     few = controller(tmp_path, "2", axes=2)
     text = tmp_path / "text.fmu"
     text.write_text("no unit", encoding="utf-8")
@@ -344,9 +361,30 @@ def test_units_that_cannot_control_end_the_run_and_say_why(tmp_path) -> None:
         (text, "is no unit that can be unpacked"),
         (tmp_path / "none.fmu", "No such file"),
     ):
-        result = machine().set("levitation.controller.fmu", str(file)).run()
-        assert not result.complete and why in str(result.stop), result.stop
-    standing = machine().set("levitation.controller.fmu", str(few))
+        with pytest.raises(auxbear.Problem, match=why):
+            machine().set("levitation.controller.fmu", str(file)).run()
+    other = machine().set("levitation.controller.fmu", str(few)).set("levitation.controller.fmu_hash", "sha256:00")
+    with pytest.raises(auxbear.Problem, match="another one than that of fmu_hash"):
+        other.run()
     with pytest.raises(auxbear.Problem, match="sampling_period"):
         auxbear.Scenario.load(SCENARIOS / "amb_rig_drop.toml").set("levitation.controller.fmu", str(few)).check()
-    assert "fmu" in standing.toml()
+    # studies ask while they run: members end and say why
+    few_inputs = machine().set("levitation.controller.fmu", str(few))
+    _, failed = few_inputs.evaluate([{"rotor.speed": "11000 rpm"}])
+    assert "2 inputs" in failed[0]
+
+
+def test_a_unit_that_may_be_there_once_is_refused_for_more_members(tmp_path) -> None:
+    unit = controller(tmp_path, "2")
+    alone = tmp_path / "alone.fmu"
+    with zipfile.ZipFile(unit) as given, zipfile.ZipFile(alone, "w") as written:
+        for name in given.namelist():
+            content = given.read(name)
+            if name == "modelDescription.xml":
+                content = content.replace(b'canBeInstantiatedOnlyOncePerProcess="false"', b'canBeInstantiatedOnlyOncePerProcess="true"')
+                assert b'OncePerProcess="true"' in content
+            written.writestr(name, content)
+    scenario = machine().set("run.duration", "1 ms").set("levitation.controller.fmu", str(alone))
+    assert scenario.run().complete
+    with pytest.raises(auxbear.Problem, match="may be instantiated once in a process"):
+        scenario.run(repeat=2)

@@ -147,3 +147,116 @@ fn driven_by_its_own_controllers_it_has_the_bits_of_its_run() {
         assert!(ours.1 == theirs.1, "{}", ours.0);
     }
 }
+
+/// The rig whose amplifiers are replaced.
+fn with_amplifiers(lines: &str) -> Scenario {
+    let text = include_str!("../../../scenarios/amb_rig_drop.toml");
+    let text = text.replace("amplifier_bandwidth = \"2 kHz\"", lines);
+    parsed(
+        &text,
+        &["levitation.power_lost_at=1 s", "run.duration=2 ms"],
+    )
+    .unwrap()
+}
+
+#[test]
+fn outputs_show_inputs_at_once_where_that_is_declared_and_nowhere_else() {
+    for lines in ["", "amplifier_bandwidth = \"2 kHz\""] {
+        let scenario = with_amplifiers(lines);
+        let mut driven = build(&scenario).unwrap().driven(USUAL).unwrap();
+        driven.advance(1e-3, &AtomicBool::new(false));
+        let outputs = driven.outputs();
+        let read = |driven: &mut Driven| -> Vec<u64> {
+            let all = (0..outputs.len()).rev();
+            all.map(|output| driven.read(output).to_bits()).collect()
+        };
+        let inputs = driven.inputs().count();
+        let mut shown = 0;
+        for input in 0..inputs {
+            let before = read(&mut driven);
+            let value = driven.input(input);
+            driven.change(input, value + 0.25).unwrap();
+            let after = read(&mut driven);
+            for (output, column) in outputs.iter().enumerate() {
+                let at = outputs.len() - 1 - output;
+                let moves = before[at] != after[at];
+                let feeds = driven.feeds(column).contains(&input);
+                assert_eq!(moves, feeds, "{lines} {input} {}", column.name);
+                shown += usize::from(moves);
+            }
+            driven.change(input, value).unwrap();
+        }
+        assert_eq!((inputs, shown), (5, if lines.is_empty() { 4 } else { 0 }));
+    }
+}
+
+/// For so short a time the force of a magnet changes little: commands of each kind hold the rotor as its controllers did.
+#[test]
+fn commands_of_each_kind_begin_with_what_holds_the_rotor() {
+    let coil = "inductance = \"15 mH\"\nresistance = \"1 ohm\"\namplifier_gain = \"300 ohm\"";
+    let current = "amplifier_bandwidth = \"2 kHz\"";
+    for (lines, commands) in [(coil, Commands::Voltage), (current, Commands::Force)] {
+        let scenario = with_amplifiers(lines);
+        let machine = build(&scenario).unwrap();
+        let after = |commands| {
+            let mut driven = machine.driven(Way { commands, ..USUAL }).unwrap();
+            driven.advance(2e-4, &AtomicBool::new(false));
+            let y = place(&driven, "sensor.drive_end.displacement_2");
+            driven.read(y)
+        };
+        let (held, other) = (after(Commands::Current), after(commands));
+        // one without any force has fallen by 2e-7 m
+        assert!(
+            (held - other).abs() < 2e-8,
+            "{commands:?} {held:e} {other:e}"
+        );
+        let loose = {
+            let mut driven = machine.driven(Way { commands, ..USUAL }).unwrap();
+            for axis in 0..4 {
+                driven.change(axis, 0.0).unwrap();
+            }
+            driven.advance(2e-4, &AtomicBool::new(false));
+            let y = place(&driven, "sensor.drive_end.displacement_2");
+            driven.read(y)
+        };
+        let moved = (held - loose).abs();
+        assert!(
+            moved
+                > if commands == Commands::Force {
+                    5e-8
+                } else {
+                    1e-10
+                },
+            "{moved:e}"
+        );
+    }
+}
+
+/// Temperatures that act on the motion, linearly implicit steps, faults of magnets: what is not an input is as in the run.
+#[test]
+fn without_inputs_it_has_the_bits_of_any_run() {
+    let warm = include_str!("../../../scenarios/drop_until_standstill.toml");
+    let warm = parsed(warm, &["run.until=duration", "run.duration=0.1 s"]).unwrap();
+    let stiff = [
+        "run.duration=15 ms",
+        "bearing.traction.reference_speed=0.001 m/s",
+    ];
+    let stiff = parsed(&auxbear::template("drop").unwrap(), &stiff).unwrap();
+    let lost = include_str!("../../../scenarios/amb_rig_drop.toml");
+    let lost = parsed(lost, &["run.duration=15 ms"]).unwrap();
+    for scenario in [warm, stiff, lost] {
+        let whole = run(&scenario, &Options::unwatched(&AtomicBool::new(false))).unwrap();
+        let mut driven = build(&scenario).unwrap().driven(USUAL).unwrap();
+        driven.advance(f64::INFINITY, &AtomicBool::new(false));
+        let outcome = driven.outcome();
+        assert_eq!(
+            (outcome.work.steps, outcome.work.method),
+            (whole.work.steps, whole.work.method)
+        );
+        // a rotor that does not bend has a source more, of forces from outside
+        let ours = bits(&outcome);
+        for theirs in bits(&whole) {
+            assert!(ours.contains(&theirs), "{:?}: {}", scenario.title, theirs.0);
+        }
+    }
+}

@@ -7,10 +7,12 @@ use crate::package;
 use auxbear::Scenario;
 use auxbear::outcome::options::{Controller, Controllers};
 use auxbear::problem::{Code, Problem};
+use auxbear::scenario::rotor::levitation::{Magnets, Unit as GivenUnit};
 use auxbear::scenario::{Body, problem_at};
 use libloading::Library;
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
+use sha2::{Digest, Sha256};
 use std::cell::RefCell;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs::{self, File};
@@ -36,35 +38,58 @@ impl Controllers for Units {
     }
 }
 
-/// Refuses the unit of a scenario that could not command its magnets, before a run: it is started once, and gone again.
+/// The magnets of a scenario that a unit commands, with the unit.
+fn commanded(scenario: &Scenario) -> Option<(&Magnets, &GivenUnit)> {
+    let Body::Flexible(shaft) = &scenario.drop()?.body else {
+        return None;
+    };
+    let magnets = shaft.rotor.levitation.as_ref()?;
+    Some((magnets, magnets.unit.as_ref()?))
+}
+
+fn hash(file: &str) -> Result<String, String> {
+    let bytes = fs::read(file).map_err(|error| error.to_string())?;
+    let hash = Sha256::digest(bytes);
+    let digits: String = hash.iter().map(|byte| format!("{byte:02x}")).collect();
+    Ok(format!("sha256:{digits}"))
+}
+
+/// Refuses the unit of a scenario that could not command its magnets, before a run: it is started once, and gone again. The scenario with
+/// the hash of the unit; none where there is no unit, or it has the hash already.
 ///
 /// # Errors
 /// Why it could not.
-pub fn check(scenario: &Scenario) -> Result<(), Box<Problem>> {
-    let Some((drop, Body::Flexible(shaft))) = scenario.drop().map(|drop| (drop, &drop.body)) else {
-        return Ok(());
+pub fn checked(scenario: &Scenario) -> Result<Option<Scenario>, Box<Problem>> {
+    let Some((magnets, unit)) = commanded(scenario) else {
+        return Ok(None);
     };
-    let Some((magnets, file)) =
-        (shaft.rotor.levitation.as_ref()).and_then(|own| Some((own, own.unit.as_ref()?)))
-    else {
-        return Ok(());
+    let (file, axes) = (&unit.file, 2 * magnets.magnets.len());
+    let members = scenario.drop().map_or(1, |drop| drop.repeat.count);
+    let found = match (hash(file), &unit.hash) {
+        (Ok(hash), Some(given)) if hash != *given => {
+            Err(format!("another one than that of fmu_hash: {hash}"))
+        }
+        (hash, _) => hash.and_then(|hash| {
+            let alone = Unit::start(file)?.fits(axes, axes)?;
+            match alone && members > 1 {
+                true => Err(ONCE.to_string()),
+                false => Ok(hash),
+            }
+        }),
     };
-    let axes = 2 * magnets.magnets.len();
-    let fits = Unit::start(file).and_then(|unit| unit.fits(axes, axes));
-    let alone = fits.as_ref().is_ok_and(|alone| *alone) && drop.repeat.count > 1;
-    let found = match (fits, alone) {
-        (Ok(_), false) => return Ok(()),
-        (Ok(_), true) => format!("{file}, which {ONCE}"),
-        (Err(why), _) => format!("{file}: {why}"),
-    };
-    let needed = "a unit of FMI 2.0 or 3.0 for co-simulation is needed, with a signal of each sensor axis as input and a command of each magnet \
-                  axis as output, for this platform";
-    Err(scenario.locate(problem_at(
-        Code::Conflict,
-        "levitation.controller.fmu",
-        found,
-        needed,
-    )))
+    let key = "levitation.controller.fmu";
+    match found {
+        Ok(_) if unit.hash.is_some() => Ok(None),
+        Ok(hash) => scenario.with(&[(format!("{key}_hash"), hash)]).map(Some),
+        Err(why) => {
+            let needed = "a unit of FMI 2.0 or 3.0 for co-simulation is needed, with a signal of each sensor axis as input and a command of \
+                          each magnet axis as output, for this platform";
+            // the path is in the file
+            let name = Path::new(file).file_name().unwrap_or_default().display();
+            let problem = problem_at(Code::Conflict, key, format!("{name}: {why}"), needed);
+            Err(scenario.locate(problem))
+        }
+    }
 }
 
 const ONCE: &str =
@@ -156,7 +181,10 @@ impl Folder {
     fn of(file: &str) -> Result<Self, String> {
         let number = FOLDERS.fetch_add(1, Ordering::Relaxed);
         let name = format!("auxbear-unit-{}-{number}", std::process::id());
-        let folder = Folder(std::env::temp_dir().join(name));
+        let path = std::env::temp_dir().join(name);
+        // one that is there is somebody else's
+        fs::create_dir(&path).map_err(|error| format!("{}: {error}", path.display()))?;
+        let folder = Folder(path);
         let opened = File::open(file).map_err(|error| error.to_string())?;
         let zip = zip::ZipArchive::new(opened);
         let unpacked = zip.and_then(|mut zip| zip.extract(&folder.0));
@@ -239,8 +267,15 @@ macro_rules! call {
     }};
 }
 
+/// The same of a function that returns a status.
+macro_rules! status {
+    ($library:expr, $name:literal ( $($value:expr => $of:ty),* )) => {
+        done(&String::from_utf8_lossy($name), call!($library, $name ( $($value => $of),* ) -> c_int))
+    };
+}
+
 /// What a status says.
-fn checked(what: &str, status: Result<c_int, String>) -> Result<(), String> {
+fn done(what: &str, status: Result<c_int, String>) -> Result<(), String> {
     match status? {
         0 | 1 => Ok(()),
         status => Err(refused(what, status)),
@@ -338,29 +373,14 @@ impl Unit {
         }
         self.component = c;
         if self.description.three {
-            checked(
-                "fmi3EnterInitializationMode",
-                call!(library, b"fmi3EnterInitializationMode" (
-                c => Component, false => bool, 0.0 => f64, 0.0 => f64, false => bool, 0.0 => f64) -> c_int),
-            )?;
-            checked(
-                "fmi3ExitInitializationMode",
-                call!(library, b"fmi3ExitInitializationMode" (c => Component) -> c_int),
-            )
+            status!(library, b"fmi3EnterInitializationMode" (
+                c => Component, false => bool, 0.0 => f64, 0.0 => f64, false => bool, 0.0 => f64))?;
+            status!(library, b"fmi3ExitInitializationMode" (c => Component))
         } else {
-            checked(
-                "fmi2SetupExperiment",
-                call!(library, b"fmi2SetupExperiment" (
-                c => Component, 0 => c_int, 0.0 => f64, 0.0 => f64, 0 => c_int, 0.0 => f64) -> c_int),
-            )?;
-            checked(
-                "fmi2EnterInitializationMode",
-                call!(library, b"fmi2EnterInitializationMode" (c => Component) -> c_int),
-            )?;
-            checked(
-                "fmi2ExitInitializationMode",
-                call!(library, b"fmi2ExitInitializationMode" (c => Component) -> c_int),
-            )
+            status!(library, b"fmi2SetupExperiment" (
+                c => Component, 0 => c_int, 0.0 => f64, 0.0 => f64, 0 => c_int, 0.0 => f64))?;
+            status!(library, b"fmi2EnterInitializationMode" (c => Component))?;
+            status!(library, b"fmi2ExitInitializationMode" (c => Component))
         }
     }
 }
@@ -404,36 +424,18 @@ impl Controller for Unit {
             let mut ended = [false; 3];
             let mut reached = 0.0;
             let [event, end, early] = &mut ended;
-            checked(
-                "fmi3SetFloat64",
-                call!(library, b"fmi3SetFloat64" (
-                c => Component, inputs.as_ptr() => *const u32, inputs.len() => usize, signals.as_ptr() => *const f64, signals.len() => usize) -> c_int),
-            )?;
-            checked(
-                "fmi3DoStep",
-                call!(library, b"fmi3DoStep" (
-                c => Component, time => f64, period => f64, true => bool, event => *mut bool, end => *mut bool, early => *mut bool, &raw mut reached => *mut f64) -> c_int),
-            )?;
-            checked(
-                "fmi3GetFloat64",
-                call!(library, b"fmi3GetFloat64" (
-                c => Component, outputs.as_ptr() => *const u32, outputs.len() => usize, commands.as_mut_ptr() => *mut f64, commands.len() => usize) -> c_int),
-            )?;
+            status!(library, b"fmi3SetFloat64" (
+                c => Component, inputs.as_ptr() => *const u32, inputs.len() => usize, signals.as_ptr() => *const f64, signals.len() => usize))?;
+            status!(library, b"fmi3DoStep" (
+                c => Component, time => f64, period => f64, true => bool, event => *mut bool, end => *mut bool, early => *mut bool, &raw mut reached => *mut f64))?;
+            status!(library, b"fmi3GetFloat64" (
+                c => Component, outputs.as_ptr() => *const u32, outputs.len() => usize, commands.as_mut_ptr() => *mut f64, commands.len() => usize))?;
         } else {
-            checked(
-                "fmi2SetReal",
-                call!(library, b"fmi2SetReal" (
-                c => Component, inputs.as_ptr() => *const u32, inputs.len() => usize, signals.as_ptr() => *const f64) -> c_int),
-            )?;
-            checked(
-                "fmi2DoStep",
-                call!(library, b"fmi2DoStep" (c => Component, time => f64, period => f64, 1 => c_int) -> c_int),
-            )?;
-            checked(
-                "fmi2GetReal",
-                call!(library, b"fmi2GetReal" (
-                c => Component, outputs.as_ptr() => *const u32, outputs.len() => usize, commands.as_mut_ptr() => *mut f64) -> c_int),
-            )?;
+            status!(library, b"fmi2SetReal" (
+                c => Component, inputs.as_ptr() => *const u32, inputs.len() => usize, signals.as_ptr() => *const f64))?;
+            status!(library, b"fmi2DoStep" (c => Component, time => f64, period => f64, 1 => c_int))?;
+            status!(library, b"fmi2GetReal" (
+                c => Component, outputs.as_ptr() => *const u32, outputs.len() => usize, commands.as_mut_ptr() => *mut f64))?;
         }
         Ok(commands)
     }

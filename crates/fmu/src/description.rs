@@ -76,10 +76,7 @@ fn attribute(name: &str, value: &str) -> String {
 impl Model<'_> {
     /// The guid with the whole text.
     pub fn written(&self, version: Version) -> (String, String) {
-        let body = match version {
-            Version::Two => self.body_of_two(),
-            Version::Three => self.body_of_three(),
-        };
+        let body = self.body(version);
         let guid = guid(&[self.content, &body]);
         let (number, token) = match version {
             Version::Two => ("2.0", "guid"),
@@ -94,141 +91,98 @@ impl Model<'_> {
         (guid, format!("{head}{body}</fmiModelDescription>\n"))
     }
 
-    fn units(&self) -> String {
-        let used: BTreeSet<&str> = (self.variables.iter())
-            .map(|own| own.unit.as_str())
-            .collect();
-        let units = used.into_iter().filter(|unit| !unit.is_empty());
-        units.fold(String::new(), |mut out, unit| {
+    fn body(&self, version: Version) -> String {
+        let two = version == Version::Two;
+        let mut out = match two {
+            true => " numberOfEventIndicators=\"0\"",
+            false => "",
+        }
+        .to_string();
+        let (state, early) = match two {
+            true => ("FMUstate", ""),
+            false => ("FMUState", " mightReturnEarlyFromDoStep=\"true\""),
+        };
+        let _ = write!(
+            out,
+            ">\n  <CoSimulation modelIdentifier=\"{IDENTIFIER}\" canHandleVariableCommunicationStepSize=\"true\" canGetAndSet{state}=\"true\" \
+             canSerialize{state}=\"true\"{early}/>\n  <UnitDefinitions>\n"
+        );
+        let used: BTreeSet<&str> = self.variables.iter().map(|own| &own.unit[..]).collect();
+        for unit in used.into_iter().filter(|unit| !unit.is_empty()) {
             let _ = writeln!(out, "    <Unit name=\"{}\"/>", quoted(unit));
-            out
-        })
-    }
-    fn experiment(&self) -> String {
-        format!(
-            "  <DefaultExperiment startTime=\"0\" stopTime=\"{:?}\"/>\n",
+        }
+        let _ = write!(
+            out,
+            "  </UnitDefinitions>\n  <DefaultExperiment startTime=\"0\" stopTime=\"{:?}\"/>\n  <ModelVariables>\n",
             self.end
-        )
-    }
-    /// Value references of inputs, in their order.
-    fn inputs(&self) -> Vec<usize> {
-        let all = self.variables.iter().enumerate();
-        all.filter(|(_, own)| matches!(own.role, Role::Input(_)))
-            .map(|(reference, _)| reference)
-            .collect()
-    }
-    /// Outputs by their value references, with those of the inputs that they show at once, `first` more.
-    fn outputs(&self, first: usize) -> impl Iterator<Item = (usize, String)> {
-        let inputs = self.inputs();
-        let all = self.variables.iter().enumerate();
-        all.filter_map(move |(reference, own)| match &own.role {
-            Role::Output(_, feeds) => {
-                let feeds = feeds
-                    .iter()
-                    .map(|place| (inputs[*place] + first).to_string());
-                Some((reference + first, feeds.collect::<Vec<_>>().join(" ")))
-            }
-            _ => None,
-        })
-    }
-
-    fn body_of_two(&self) -> String {
-        let mut out = format!(
-            " numberOfEventIndicators=\"0\">\n  <CoSimulation modelIdentifier=\"{IDENTIFIER}\" canHandleVariableCommunicationStepSize=\"true\" \
-             canGetAndSetFMUstate=\"true\" canSerializeFMUstate=\"true\"/>\n"
         );
-        let _ = write!(
-            out,
-            "  <UnitDefinitions>\n{}  </UnitDefinitions>\n",
-            self.units()
-        );
-        out += &self.experiment();
-        out += "  <ModelVariables>\n";
         for (reference, own) in self.variables.iter().enumerate() {
-            let [causality, variability, initial] = match own.role {
-                Role::Time => ["independent", "continuous", ""],
-                Role::Input(_) => ["input", "continuous", ""],
-                Role::Output(..) => ["output", "continuous", "calculated"],
-                Role::Parameter(_) | Role::Choice(_) => ["parameter", "fixed", "exact"],
-            };
-            let _ = writeln!(
-                out,
-                "    <ScalarVariable name=\"{}\" valueReference=\"{reference}\"{} causality=\"{causality}\" variability=\"{variability}\"{}>{}</ScalarVariable>",
-                quoted(&own.name),
-                attribute("description", &own.meaning),
-                attribute("initial", initial),
-                match &own.kind {
-                    Kind::Real(None) => format!("<Real{}/>", attribute("unit", &own.unit)),
-                    Kind::Real(Some(start)) => format!(
-                        "<Real{} start=\"{start:?}\"/>",
-                        attribute("unit", &own.unit)
-                    ),
-                    Kind::Boolean(start) => format!("<Boolean start=\"{start}\"/>"),
-                    Kind::Text => "<String start=\"\"/>".to_string(),
-                }
-            );
-        }
-        out += "  </ModelVariables>\n  <ModelStructure>\n    <Outputs>\n";
-        for (index, feeds) in self.outputs(1) {
-            let _ = writeln!(
-                out,
-                "      <Unknown index=\"{index}\" dependencies=\"{feeds}\"/>"
-            );
-        }
-        out += "    </Outputs>\n    <InitialUnknowns>\n";
-        for (index, _) in self.outputs(1) {
-            let _ = writeln!(out, "      <Unknown index=\"{index}\"/>");
-        }
-        out += "    </InitialUnknowns>\n  </ModelStructure>\n";
-        out
-    }
-
-    fn body_of_three(&self) -> String {
-        let mut out = format!(
-            ">\n  <CoSimulation modelIdentifier=\"{IDENTIFIER}\" canHandleVariableCommunicationStepSize=\"true\" canGetAndSetFMUState=\"true\" \
-             canSerializeFMUState=\"true\" mightReturnEarlyFromDoStep=\"true\"/>\n"
-        );
-        let _ = write!(
-            out,
-            "  <UnitDefinitions>\n{}  </UnitDefinitions>\n",
-            self.units()
-        );
-        out += &self.experiment();
-        out += "  <ModelVariables>\n";
-        for (reference, own) in self.variables.iter().enumerate() {
-            let [causality, variability, initial] = match own.role {
-                Role::Time => ["independent", "continuous", ""],
-                Role::Input(_) => ["input", "continuous", ""],
-                Role::Output(..) => ["output", "continuous", "calculated"],
-                Role::Parameter(_) | Role::Choice(_) => ["parameter", "fixed", "exact"],
-            };
-            let common = format!(
-                "name=\"{}\" valueReference=\"{reference}\"{} causality=\"{causality}\" variability=\"{variability}\"{}",
-                quoted(&own.name),
-                attribute("description", &own.meaning),
-                attribute("initial", initial)
-            );
-            let unit = attribute("unit", &own.unit);
-            let _ = match &own.kind {
-                Kind::Real(None) => writeln!(out, "    <Float64 {common}{unit}/>"),
-                Kind::Real(Some(start)) => {
-                    writeln!(out, "    <Float64 {common}{unit} start=\"{start:?}\"/>")
-                }
-                Kind::Boolean(start) => writeln!(out, "    <Boolean {common} start=\"{start}\"/>"),
-                Kind::Text => writeln!(out, "    <String {common}><Start value=\"\"/></String>"),
-            };
+            out += &variable(own, reference, two);
         }
         out += "  </ModelVariables>\n  <ModelStructure>\n";
-        for (reference, feeds) in self.outputs(0) {
+        let all = || self.variables.iter().enumerate();
+        let inputs: Vec<usize> = all()
+            .filter(|(_, own)| matches!(own.role, Role::Input(_)))
+            .map(|(reference, _)| reference)
+            .collect();
+        // version 2.0 counts from 1
+        let first = usize::from(two);
+        let (mut outputs, mut initial) = (String::new(), String::new());
+        for (reference, own) in all() {
+            let Role::Output(_, feeds) = &own.role else {
+                continue;
+            };
+            let at = reference + first;
+            let feeds = feeds
+                .iter()
+                .map(|place| (inputs[*place] + first).to_string());
+            let feeds = feeds.collect::<Vec<_>>().join(" ");
+            let (output, unknown, key) = match two {
+                true => ("Unknown", "Unknown", "index"),
+                false => ("Output", "InitialUnknown", "valueReference"),
+            };
             let _ = writeln!(
-                out,
-                "    <Output valueReference=\"{reference}\" dependencies=\"{feeds}\"/>"
+                outputs,
+                "      <{output} {key}=\"{at}\" dependencies=\"{feeds}\"/>"
             );
+            let _ = writeln!(initial, "      <{unknown} {key}=\"{at}\"/>");
         }
-        for (reference, _) in self.outputs(0) {
-            let _ = writeln!(out, "    <InitialUnknown valueReference=\"{reference}\"/>");
+        out += &match two {
+            true => format!(
+                "<Outputs>\n{outputs}</Outputs>\n<InitialUnknowns>\n{initial}</InitialUnknowns>\n"
+            ),
+            false => outputs + &initial,
+        };
+        out + "  </ModelStructure>\n"
+    }
+}
+
+/// The element of a variable.
+fn variable(own: &Variable, reference: usize, two: bool) -> String {
+    let [causality, variability, initial] = match own.role {
+        Role::Time => ["independent", "continuous", ""],
+        Role::Input(_) => ["input", "continuous", ""],
+        Role::Output(..) => ["output", "continuous", "calculated"],
+        Role::Parameter(_) | Role::Choice(_) => ["parameter", "fixed", "exact"],
+    };
+    let common = format!(
+        " name=\"{}\" valueReference=\"{reference}\"{} causality=\"{causality}\" variability=\"{variability}\"{}",
+        quoted(&own.name),
+        attribute("description", &own.meaning),
+        attribute("initial", initial)
+    );
+    let (kind, more) = match &own.kind {
+        Kind::Real(start) => {
+            let start = start.map_or(String::new(), |start| format!(" start=\"{start:?}\""));
+            let kind = if two { "Real" } else { "Float64" };
+            (kind, attribute("unit", &own.unit) + &start)
         }
-        out += "  </ModelStructure>\n";
-        out
+        Kind::Boolean(start) => ("Boolean", format!(" start=\"{start}\"")),
+        Kind::Text if two => ("String", " start=\"\"".to_string()),
+        Kind::Text => return format!("    <String{common}><Start value=\"\"/></String>\n"),
+    };
+    match two {
+        true => format!("    <ScalarVariable{common}><{kind}{more}/></ScalarVariable>\n"),
+        false => format!("    <{kind}{common}{more}/>\n"),
     }
 }

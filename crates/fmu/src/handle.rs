@@ -1,4 +1,7 @@
 //! What stands behind a pointer that an importer holds: an instance, its messages, and the border that no panic crosses.
+//!
+//! Safety of all functions here: texts end with a zero or are null; lists and room for values are as long as their counts say and live
+//! through the call; handles and states came from here and are not freed yet, or are null.
 
 use crate::instance::{Fault, Instance, State};
 use crate::past;
@@ -64,38 +67,29 @@ fn c_text(text: &str) -> CString {
 }
 
 /// A text that an importer gave; none where it is no UTF-8.
-///
-/// # Safety
-/// A text that ends with a zero, or null.
 pub(crate) unsafe fn text<'a>(from: *const c_char) -> Option<&'a str> {
     if from.is_null() {
         return None;
     }
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe { CStr::from_ptr(from) }.to_str().ok()
 }
 
 /// A list that an importer gave.
-///
-/// # Safety
-/// Null and 0, or so many entries that live on.
 pub(crate) unsafe fn list<'a, T>(from: *const T, count: usize) -> &'a [T] {
     if count == 0 || from.is_null() {
         return &[];
     }
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe { std::slice::from_raw_parts(from, count) }
 }
 
 /// A list that an importer wants filled.
-///
-/// # Safety
-/// Null and 0, or so many entries that live on and nobody else has.
 pub(crate) unsafe fn room<'a, T>(from: *mut T, count: usize) -> &'a mut [T] {
     if count == 0 || from.is_null() {
         return &mut [];
     }
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe { std::slice::from_raw_parts_mut(from, count) }
 }
 
@@ -217,7 +211,7 @@ fn say(logger: &Logger, environment: *mut c_void, name: &CStr, (status, message)
         }
         Logger::Three(logger) => {
             let message = c_text(message);
-            // SAFETY: as above.
+            // SAFETY: see the page.
             unsafe {
                 logger(
                     environment,
@@ -242,14 +236,11 @@ impl Handle {
 }
 
 /// Does something with an instance: what went wrong is said, and a panic ends here.
-///
-/// # Safety
-/// A pointer that [`Importer::instantiated`] gave and that is not freed, or null.
 pub(crate) unsafe fn with<S: Into<Status>>(
     handle: *mut c_void,
     act: impl FnOnce(&mut Handle) -> Result<S, Fault>,
 ) -> c_int {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let Some(handle) = (unsafe { handle.cast::<Handle>().as_mut() }) else {
         return Status::Error as c_int;
     };
@@ -269,12 +260,9 @@ pub(crate) unsafe fn with<S: Into<Status>>(
 }
 
 /// Frees what stands behind a pointer.
-///
-/// # Safety
-/// A pointer to such a thing that was leaked and is not freed, or null.
 pub(crate) unsafe fn free<T>(pointer: *mut c_void) {
     if !pointer.is_null() {
-        // SAFETY: as above.
+        // SAFETY: see the page.
         drop(unsafe { Box::from_raw(pointer.cast::<T>()) });
     }
 }
@@ -307,16 +295,13 @@ pub(crate) fn none(count: usize) -> Result<(), Fault> {
 pub(crate) type References = (*const u32, usize);
 
 /// Values of variables.
-///
-/// # Safety
-/// As for [`list`] and [`room`].
 pub(crate) unsafe fn get<T>(
     own: &mut Handle,
     (references, count): References,
     values: *mut T,
     of: impl Fn(&mut Instance, u32) -> Result<T, Fault>,
 ) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let (references, values) = unsafe { (list(references, count), room(values, count)) };
     for (reference, value) in references.iter().zip(values) {
         *value = of(&mut own.instance, *reference)?;
@@ -325,31 +310,25 @@ pub(crate) unsafe fn get<T>(
 }
 
 /// Sets variables.
-///
-/// # Safety
-/// As for [`list`].
 pub(crate) unsafe fn set<T: Copy>(
     own: &mut Handle,
     (references, count): References,
     values: *const T,
     put: impl Fn(&mut Instance, u32, T) -> Result<(), Fault>,
 ) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let (references, values) = unsafe { (list(references, count), list(values, count)) };
     let mut all = references.iter().zip(values);
     all.try_for_each(|(reference, value)| put(&mut own.instance, *reference, *value))
 }
 
 /// Texts of variables, which live until the next call.
-///
-/// # Safety
-/// As for [`list`] and [`room`].
 pub(crate) unsafe fn get_texts(
     own: &mut Handle,
     (references, count): References,
     values: *mut *const c_char,
 ) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let (references, values) = unsafe { (list(references, count), room(values, count)) };
     let found = references
         .iter()
@@ -364,15 +343,12 @@ pub(crate) unsafe fn get_texts(
 }
 
 /// Sets texts.
-///
-/// # Safety
-/// As for [`list`] and [`text`].
 pub(crate) unsafe fn set_texts(
     own: &mut Handle,
     references: References,
     values: *const *const c_char,
 ) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe {
         set(own, references, values, |instance, reference, value| {
             instance.set_text(reference, text(value).ok_or("a text that is no UTF-8")?)
@@ -381,12 +357,9 @@ pub(crate) unsafe fn set_texts(
 }
 
 /// Saves the state of an instance, in the place of an earlier one where there is one.
-///
-/// # Safety
-/// `state` holds null or a state that was saved and is not freed.
 pub(crate) unsafe fn save(own: &mut Handle, state: *mut *mut c_void) -> Result<(), Fault> {
     let saved = own.instance.save()?;
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe {
         match (*state).cast::<State>().as_mut() {
             Some(earlier) => *earlier = saved,
@@ -397,31 +370,22 @@ pub(crate) unsafe fn save(own: &mut Handle, state: *mut *mut c_void) -> Result<(
 }
 
 /// A state that was saved.
-///
-/// # Safety
-/// One that is not freed, or null.
 unsafe fn saved<'a>(state: *mut c_void) -> Result<&'a State, Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let state = unsafe { state.cast::<State>().as_ref() };
     state.ok_or_else(|| "no state was given".to_string())
 }
 
 /// Goes back to a state.
-///
-/// # Safety
-/// As for [`saved`].
 pub(crate) unsafe fn restore(own: &mut Handle, state: *mut c_void) -> Result<(), Fault> {
     own.over = false;
-    // SAFETY: as above.
+    // SAFETY: see the page.
     own.instance.restore(unsafe { saved(state) }?)
 }
 
 /// Frees a state.
-///
-/// # Safety
-/// As for [`save`].
 pub(crate) unsafe fn forget(state: *mut *mut c_void) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe {
         if let Some(state) = state.as_mut() {
             free::<State>(std::mem::replace(state, std::ptr::null_mut()));
@@ -431,27 +395,21 @@ pub(crate) unsafe fn forget(state: *mut *mut c_void) -> Result<(), Fault> {
 }
 
 /// Size of a state as bytes.
-///
-/// # Safety
-/// As for [`saved`].
 pub(crate) unsafe fn size(own: &Handle, state: *mut c_void, size: *mut usize) -> Result<(), Fault> {
-    // SAFETY: as above.
-    unsafe { *size = past::written(own.instance.guid(), &saved(state)?.past()).len() };
+    // SAFETY: see the page.
+    unsafe { *size = past::written(own.instance.guid(), &saved(state)?.past).len() };
     Ok(())
 }
 
 /// Writes a state as bytes.
-///
-/// # Safety
-/// As for [`saved`] and [`room`].
 pub(crate) unsafe fn write(
     own: &Handle,
     state: *mut c_void,
     (into, size): (*mut u8, usize),
 ) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let (state, into) = unsafe { (saved(state)?, room(into, size)) };
-    let bytes = past::written(own.instance.guid(), &state.past());
+    let bytes = past::written(own.instance.guid(), &state.past);
     let into = into
         .get_mut(..bytes.len())
         .ok_or("too little room for the state")?;
@@ -460,21 +418,18 @@ pub(crate) unsafe fn write(
 }
 
 /// A state from its bytes: the instance goes through all that the other did, and back to where it is.
-///
-/// # Safety
-/// As for [`list`].
 pub(crate) unsafe fn read(
     own: &mut Handle,
     (from, size): (*const u8, usize),
     state: *mut *mut c_void,
 ) -> Result<(), Fault> {
-    // SAFETY: as above.
+    // SAFETY: see the page.
     let past = past::read(own.instance.guid(), unsafe { list(from, size) });
     let past = past.ok_or("bytes that are no state of this unit")?;
     let before = own.instance.save()?;
     let repeated = own.instance.repeat(past).and_then(|()| own.instance.save());
     own.instance.restore(&before)?;
-    // SAFETY: as above.
+    // SAFETY: see the page.
     unsafe { *state = Box::into_raw(Box::new(repeated?)).cast() };
     Ok(())
 }

@@ -2,7 +2,8 @@
 
 use crate::package::{self, Resources};
 use crate::variables::{self, Choice, Kind, Role, Variable};
-use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, write_directory};
+use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, build, write_directory};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -11,7 +12,7 @@ use std::sync::atomic::AtomicBool;
 pub type Fault = String;
 
 /// How far an instance has come.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Phase {
     /// Parameters may be set.
     Instantiated,
@@ -35,14 +36,14 @@ pub enum Stepped {
 }
 
 /// What was done since the start: inputs that changed, by value references, then the time that was gone on to, s.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Entry {
     pub inputs: Vec<(u32, f64)>,
     pub until: f64,
 }
 
 /// What was set besides the defaults.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Settings {
     /// Parameters by their value references.
     pub parameters: BTreeMap<u32, f64>,
@@ -50,33 +51,49 @@ pub(crate) struct Settings {
     pub run_directory: String,
 }
 
+/// What an instance has done, from which its state follows.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub(crate) struct Past {
+    settings: Settings,
+    /// Inputs before the first step, by their value references.
+    inputs: BTreeMap<u32, f64>,
+    phase: Phase,
+    /// Time of the importer at the start of the run, s.
+    start: f64,
+    done: Vec<Entry>,
+    /// Inputs since the last step.
+    pending: Vec<(u32, f64)>,
+}
+
+impl Past {
+    /// Of one that was just instantiated.
+    fn none() -> Self {
+        Past {
+            settings: Settings::default(),
+            inputs: BTreeMap::new(),
+            phase: Phase::Instantiated,
+            start: 0.0,
+            done: Vec::new(),
+            pending: Vec::new(),
+        }
+    }
+}
+
 /// An instance.
 pub struct Instance {
     resources: Resources,
     scenario: Scenario,
     variables: Vec<Variable>,
-    settings: Settings,
-    /// Inputs before the first step, by their value references.
-    inputs: BTreeMap<u32, f64>,
+    past: Past,
     /// The machine, with the settings that it was built with.
     driven: Option<(Driven, Settings)>,
-    phase: Phase,
-    /// Time of the importer at the start of the run, s.
-    start: f64,
-    done: Vec<Entry>,
-    pending: Vec<(u32, f64)>,
 }
 
 /// An instance at an instant.
 #[derive(Clone)]
 pub struct State {
-    settings: Settings,
-    inputs: BTreeMap<u32, f64>,
-    phase: Phase,
-    start: f64,
-    done: Vec<Entry>,
-    pending: Vec<(u32, f64)>,
-    driven: Option<DrivenState>,
+    pub(crate) past: Past,
+    driven: DrivenState,
 }
 
 /// Share of a time by which the importer's may differ from ours: it adds its steps up.
@@ -98,13 +115,8 @@ impl Instance {
             resources,
             scenario,
             variables: Vec::new(),
-            settings: Settings::default(),
-            inputs: BTreeMap::new(),
+            past: Past::none(),
             driven: None,
-            phase: Phase::Instantiated,
-            start: 0.0,
-            done: Vec::new(),
-            pending: Vec::new(),
         };
         own.build()?;
         let driven = own.driven.as_ref().map(|(driven, _)| driven);
@@ -115,10 +127,10 @@ impl Instance {
 
     /// The machine with the settings.
     fn build(&mut self) -> Result<&mut Driven, Fault> {
-        let fits = (self.driven.as_ref()).is_some_and(|(_, with)| *with == self.settings);
+        let fits = (self.driven.as_ref()).is_some_and(|(_, with)| *with == self.past.settings);
         if !fits {
             let mut changes = Vec::new();
-            for (reference, value) in &self.settings.parameters {
+            for (reference, value) in &self.past.settings.parameters {
                 let own = &self.variables[*reference as usize];
                 let Role::Parameter(path) = &own.role else {
                     continue;
@@ -131,8 +143,8 @@ impl Instance {
             }
             let way = Way {
                 commands: self.resources.commands,
-                keep_history: !self.settings.run_directory.is_empty(),
-                stops_at_contacts: self.settings.stops_at_contacts,
+                keep_history: !self.past.settings.run_directory.is_empty(),
+                stops_at_contacts: self.past.settings.stops_at_contacts,
             };
             let changed = self.scenario.with(&changes);
             let changed = changed.map_err(|problem| problem.to_string())?;
@@ -147,14 +159,14 @@ impl Instance {
                         .to_string(),
                 );
             }
-            for (reference, value) in &self.inputs {
+            for (reference, value) in &self.past.inputs {
                 if let Role::Input(place) = self.variables[*reference as usize].role {
                     driven
                         .change(place, *value)
                         .map_err(|problem| problem.to_string())?;
                 }
             }
-            self.driven = Some((driven, self.settings.clone()));
+            self.driven = Some((driven, self.past.settings.clone()));
         }
         match &mut self.driven {
             Some((driven, _)) => Ok(driven),
@@ -181,7 +193,7 @@ impl Instance {
             .driven
             .as_ref()
             .map_or(0.0, |(driven, _)| driven.time());
-        self.start + time
+        self.past.start + time
     }
 
     /// The value of a number.
@@ -199,7 +211,12 @@ impl Instance {
                     Kind::Real(start) => start.unwrap_or_default(),
                     _ => 0.0,
                 };
-                Ok(*self.settings.parameters.get(&reference).unwrap_or(&start))
+                Ok(*self
+                    .past
+                    .settings
+                    .parameters
+                    .get(&reference)
+                    .unwrap_or(&start))
             }
         }
     }
@@ -217,16 +234,16 @@ impl Instance {
             ));
         }
         match role {
-            Role::Input(place) if self.phase == Phase::Stepping => {
+            Role::Input(place) if self.past.phase == Phase::Stepping => {
                 let driven = self.build()?;
                 driven
                     .change(place, value)
                     .map_err(|problem| problem.to_string())?;
-                self.pending.push((reference, value));
+                self.past.pending.push((reference, value));
                 Ok(())
             }
             Role::Input(place) => {
-                self.inputs.insert(reference, value);
+                self.past.inputs.insert(reference, value);
                 let driven = self.build()?;
                 driven
                     .change(place, value)
@@ -234,7 +251,7 @@ impl Instance {
             }
             Role::Parameter(_) => {
                 self.may_choose(&name)?;
-                self.settings.parameters.insert(reference, value);
+                self.past.settings.parameters.insert(reference, value);
                 Ok(())
             }
             Role::Time | Role::Output(..) => Err(format!(
@@ -245,7 +262,7 @@ impl Instance {
     }
 
     fn may_choose(&self, name: &str) -> Result<(), Fault> {
-        match self.phase {
+        match self.past.phase {
             Phase::Instantiated | Phase::Initializing => Ok(()),
             _ => Err(format!(
                 "{name}: is a parameter, fixed since the initialisation"
@@ -262,25 +279,25 @@ impl Instance {
     /// The value of a switch.
     pub fn boolean(&self, reference: u32) -> Result<bool, Fault> {
         self.choice(reference, Choice::StopsAtContacts)?;
-        Ok(self.settings.stops_at_contacts)
+        Ok(self.past.settings.stops_at_contacts)
     }
     /// Sets a switch.
     pub fn set_boolean(&mut self, reference: u32, value: bool) -> Result<(), Fault> {
         let name = self.choice(reference, Choice::StopsAtContacts)?;
         self.may_choose(&name)?;
-        self.settings.stops_at_contacts = value;
+        self.past.settings.stops_at_contacts = value;
         Ok(())
     }
     /// The value of a text.
     pub fn text(&self, reference: u32) -> Result<&str, Fault> {
         self.choice(reference, Choice::RunDirectory)?;
-        Ok(&self.settings.run_directory)
+        Ok(&self.past.settings.run_directory)
     }
     /// Sets a text.
     pub fn set_text(&mut self, reference: u32, value: &str) -> Result<(), Fault> {
         let name = self.choice(reference, Choice::RunDirectory)?;
         self.may_choose(&name)?;
-        self.settings.run_directory = value.to_string();
+        self.past.settings.run_directory = value.to_string();
         Ok(())
     }
 
@@ -291,7 +308,7 @@ impl Instance {
             self.begin_at(start)?;
         }
         self.build()?;
-        self.phase = Phase::Initializing;
+        self.past.phase = Phase::Initializing;
         Ok(())
     }
     /// The run starts at a time of the importer, s.
@@ -301,22 +318,22 @@ impl Instance {
                 "start time: {start} was given; a finite number is needed"
             ));
         }
-        self.start = start;
+        self.past.start = start;
         Ok(())
     }
     /// Ends the initialisation.
     pub fn begin(&mut self) -> Result<(), Fault> {
         self.in_turn(&[Phase::Initializing])?;
         self.build()?;
-        self.phase = Phase::Stepping;
+        self.past.phase = Phase::Stepping;
         Ok(())
     }
     fn in_turn(&self, turns: &[Phase]) -> Result<(), Fault> {
-        match turns.contains(&self.phase) {
+        match turns.contains(&self.past.phase) {
             true => Ok(()),
             false => Err(format!(
                 "called in the phase {:?}; its turn is in {turns:?}",
-                self.phase
+                self.past.phase
             )),
         }
     }
@@ -324,7 +341,7 @@ impl Instance {
     /// Goes on from a time by a step, s.
     pub fn step(&mut self, from: f64, length: f64) -> Result<Stepped, Fault> {
         self.in_turn(&[Phase::Stepping])?;
-        let (reached, start) = (self.time(), self.start);
+        let (reached, start) = (self.time(), self.past.start);
         if !(length > 0.0 && length.is_finite()) {
             return Err(format!(
                 "a step of {length} s from {from} s: a step goes forwards, by a finite time"
@@ -343,10 +360,10 @@ impl Instance {
         }
         let until = (from + length) - start;
         let entry = Entry {
-            inputs: std::mem::take(&mut self.pending),
+            inputs: std::mem::take(&mut self.past.pending),
             until,
         };
-        self.done.push(entry);
+        self.past.done.push(entry);
         let driven = self.build()?;
         let end = driven.end();
         let stepped = driven.advance(until, &AtomicBool::new(false));
@@ -364,26 +381,24 @@ impl Instance {
 
     /// Ends the run; its directory is written where one was named.
     pub fn terminate(&mut self) -> Result<(), Fault> {
-        let was = std::mem::replace(&mut self.phase, Phase::Terminated);
-        let folder = self.settings.run_directory.clone();
+        let was = std::mem::replace(&mut self.past.phase, Phase::Terminated);
+        let folder = self.past.settings.run_directory.clone();
         if was != Phase::Stepping || folder.is_empty() {
             return Ok(());
         }
         let Some((driven, _)) = &mut self.driven else {
             return Ok(());
         };
-        let outcome = driven.outcome();
-        let written = write_directory(Path::new(&folder), driven.scenario(), &outcome);
+        let scenario = driven.scenario().clone();
+        let written = build(&scenario).and_then(|machine| {
+            let outcome = machine.outcome(driven);
+            write_directory(Path::new(&folder), &scenario, &outcome)
+        });
         written.map_err(|problem| problem.to_string())
     }
     /// Back to where it was instantiated.
     pub fn reset(&mut self) -> Result<(), Fault> {
-        self.settings = Settings::default();
-        self.inputs.clear();
-        self.phase = Phase::Instantiated;
-        self.start = 0.0;
-        self.done.clear();
-        self.pending.clear();
+        self.past = Past::none();
         self.driven = None;
         self.build().map(|_| ())
     }
@@ -391,27 +406,14 @@ impl Instance {
     /// What it stands at.
     pub fn save(&mut self) -> Result<State, Fault> {
         Ok(State {
-            driven: Some(self.build()?.save()),
-            settings: self.settings.clone(),
-            inputs: self.inputs.clone(),
-            phase: self.phase,
-            start: self.start,
-            done: self.done.clone(),
-            pending: self.pending.clone(),
+            driven: self.build()?.save(),
+            past: self.past.clone(),
         })
     }
     /// Back to what was saved.
     pub fn restore(&mut self, state: &State) -> Result<(), Fault> {
-        self.settings = state.settings.clone();
-        self.inputs.clone_from(&state.inputs);
-        self.phase = state.phase;
-        self.start = state.start;
-        self.done.clone_from(&state.done);
-        self.pending.clone_from(&state.pending);
-        let driven = self.build()?;
-        if let Some(saved) = &state.driven {
-            driven.restore(saved);
-        }
+        self.past.clone_from(&state.past);
+        self.build()?.restore(&state.driven);
         Ok(())
     }
     /// The guid of its description.
@@ -420,54 +422,29 @@ impl Instance {
     }
     /// Goes from its start through what another did, by the same steps: it has the same bits then.
     pub(crate) fn repeat(&mut self, other: Past) -> Result<(), Fault> {
-        self.reset()?;
-        let Past {
-            settings,
-            inputs,
-            phase,
-            start,
-            done,
-            pending,
-        } = other;
-        (self.settings, self.inputs, self.start) = (settings, inputs, start);
-        self.phase = Phase::Stepping;
+        let known = |own: &(u32, f64)| (own.0 as usize) < self.variables.len();
+        let all = other.done.iter().flat_map(|own| &own.inputs);
+        if !all.chain(&other.pending).all(known) {
+            return Err("bytes that are no state of this unit".to_string());
+        }
+        self.driven = None;
+        self.past = Past {
+            phase: Phase::Stepping,
+            done: Vec::new(),
+            pending: Vec::new(),
+            ..other.clone()
+        };
         self.build()?;
-        for entry in &done {
+        for entry in &other.done {
             for (reference, value) in &entry.inputs {
                 self.set_real(*reference, *value)?;
             }
             self.build()?.advance(entry.until, &AtomicBool::new(false));
         }
-        self.pending.clear();
-        for (reference, value) in &pending {
+        for (reference, value) in &other.pending {
             self.set_real(*reference, *value)?;
         }
-        (self.done, self.phase) = (done, phase);
+        self.past = other;
         Ok(())
-    }
-}
-
-/// What an instance has done, from which its state follows.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Past {
-    pub settings: Settings,
-    pub inputs: BTreeMap<u32, f64>,
-    pub phase: Phase,
-    pub start: f64,
-    pub done: Vec<Entry>,
-    pub pending: Vec<(u32, f64)>,
-}
-
-impl State {
-    /// What was done until then.
-    pub(crate) fn past(&self) -> Past {
-        Past {
-            settings: self.settings.clone(),
-            inputs: self.inputs.clone(),
-            phase: self.phase,
-            start: self.start,
-            done: self.done.clone(),
-            pending: self.pending.clone(),
-        }
     }
 }

@@ -193,27 +193,27 @@ macro_rules! no_such_variables {
     };
 }
 no_such_variables! {
-    fmi3GetFloat32(_values: *mut f32, _count: usize);
-    fmi3GetInt8(_values: *mut i8, _count: usize);
-    fmi3GetUInt8(_values: *mut u8, _count: usize);
-    fmi3GetInt16(_values: *mut i16, _count: usize);
-    fmi3GetUInt16(_values: *mut u16, _count: usize);
-    fmi3GetInt32(_values: *mut i32, _count: usize);
-    fmi3GetUInt32(_values: *mut u32, _count: usize);
-    fmi3GetInt64(_values: *mut i64, _count: usize);
-    fmi3GetUInt64(_values: *mut u64, _count: usize);
-    fmi3GetBinary(_sizes: *mut usize, _values: *mut *const u8, _count: usize);
+    fmi3GetFloat32(_values: *mut f32, _entries: usize);
+    fmi3GetInt8(_values: *mut i8, _entries: usize);
+    fmi3GetUInt8(_values: *mut u8, _entries: usize);
+    fmi3GetInt16(_values: *mut i16, _entries: usize);
+    fmi3GetUInt16(_values: *mut u16, _entries: usize);
+    fmi3GetInt32(_values: *mut i32, _entries: usize);
+    fmi3GetUInt32(_values: *mut u32, _entries: usize);
+    fmi3GetInt64(_values: *mut i64, _entries: usize);
+    fmi3GetUInt64(_values: *mut u64, _entries: usize);
+    fmi3GetBinary(_sizes: *mut usize, _values: *mut *const u8, _entries: usize);
     fmi3GetClock(_values: *mut bool);
-    fmi3SetFloat32(_values: *const f32, _count: usize);
-    fmi3SetInt8(_values: *const i8, _count: usize);
-    fmi3SetUInt8(_values: *const u8, _count: usize);
-    fmi3SetInt16(_values: *const i16, _count: usize);
-    fmi3SetUInt16(_values: *const u16, _count: usize);
-    fmi3SetInt32(_values: *const i32, _count: usize);
-    fmi3SetUInt32(_values: *const u32, _count: usize);
-    fmi3SetInt64(_values: *const i64, _count: usize);
-    fmi3SetUInt64(_values: *const u64, _count: usize);
-    fmi3SetBinary(_sizes: *const usize, _values: *const *const u8, _count: usize);
+    fmi3SetFloat32(_values: *const f32, _entries: usize);
+    fmi3SetInt8(_values: *const i8, _entries: usize);
+    fmi3SetUInt8(_values: *const u8, _entries: usize);
+    fmi3SetInt16(_values: *const i16, _entries: usize);
+    fmi3SetUInt16(_values: *const u16, _entries: usize);
+    fmi3SetInt32(_values: *const i32, _entries: usize);
+    fmi3SetUInt32(_values: *const u32, _entries: usize);
+    fmi3SetInt64(_values: *const i64, _entries: usize);
+    fmi3SetUInt64(_values: *const u64, _entries: usize);
+    fmi3SetBinary(_sizes: *const usize, _values: *const *const u8, _entries: usize);
     fmi3SetClock(_values: *const bool);
     fmi3GetIntervalDecimal(_intervals: *mut f64, _kinds: *mut c_int);
     fmi3GetIntervalFraction(_counters: *mut u64, _resolutions: *mut u64, _kinds: *mut c_int);
@@ -223,7 +223,7 @@ no_such_variables! {
     fmi3SetIntervalFraction(_counters: *const u64, _resolutions: *const u64);
     fmi3SetShiftDecimal(_shifts: *const f64);
     fmi3SetShiftFraction(_counters: *const u64, _resolutions: *const u64);
-    fmi3GetOutputDerivatives(_orders: *const i32, _values: *mut f64, _count: usize);
+    fmi3GetOutputDerivatives(_orders: *const i32, _values: *mut f64, _entries: usize);
 }
 
 /// Functions of other kinds of units, and of what this one cannot do.

@@ -135,8 +135,8 @@ impl Library {
     }
 }
 
-/// Writes a machine as a unit by words: what its commands are, `current`, `voltage` or `force`, and the version, `2` or `3`; of these
-/// libraries, or that in a folder. What it holds.
+/// Writes a machine as a unit by words: what its commands are, `current`, `voltage` or `force`, and the version, `2` or `3`; with
+/// these libraries, one at least. What it holds.
 ///
 /// # Errors
 /// Words that are none of these, no library, and what [`Unit::write`] refuses.
@@ -161,6 +161,9 @@ pub fn written(
         "3" | "3.0" => Version::Three,
         other => return Err(unknown("--version", other, &["2", "3"])),
     };
+    if libraries.is_empty() {
+        library_in(None)?;
+    }
     let libraries = libraries.iter().map(|path| Library::read(path));
     let libraries = libraries.collect::<Result<Vec<_>>>()?;
     let unit = Unit {

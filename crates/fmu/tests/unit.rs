@@ -4,7 +4,7 @@ use auxbear::scenario::BuiltIn;
 use auxbear::{Commands, Scenario};
 use auxbear_fmu::Version;
 use auxbear_fmu::interface_2::*;
-use auxbear_fmu::package::{Library, Unit};
+use auxbear_fmu::package::{Library, Unit, written};
 use auxbear_fmu::variables::{Role, Variable};
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs;
@@ -329,7 +329,11 @@ fn steps_end_at_contacts_where_that_is_wanted() {
 
 #[test]
 fn parameters_are_values_of_the_scenario_and_the_run_directory_has_them() {
-    let packed = packed(&machine(&[]), Commands::Current);
+    let limit = "[[limit]]\nquantity = \"drive_end.first_impact_force\"\nmost = \"1 N\"\n";
+    let text = include_str!("../../../scenarios/amb_rig_drop.toml").to_string() + limit;
+    let limited =
+        Scenario::parse(&text, "machine.toml", &SETS.map(str::to_string), &BuiltIn).unwrap();
+    let packed = packed(&limited, Commands::Current);
     let own = Instance::new(&packed);
     assert_eq!(own.put(FRICTION, 0.3), 0);
     assert_eq!(own.put("scenario.rotor.speed", 1000.0), 0);
@@ -343,7 +347,7 @@ fn parameters_are_values_of_the_scenario_and_the_run_directory_has_them() {
     );
     own.begin();
     assert_eq!(own.get("rotor.speed"), 1000.0);
-    assert_eq!(own.step(0.0, 3e-3), 0);
+    assert_eq!(own.step(0.0, 8e-3), 0);
     assert_eq!(unsafe { fmi2Terminate(own.c) }, 0, "{}", said());
     let written = fs::read_to_string(place.join("scenario.toml")).unwrap();
     assert!(
@@ -352,6 +356,7 @@ fn parameters_are_values_of_the_scenario_and_the_run_directory_has_them() {
     );
     let summary = fs::read_to_string(place.join("summary.json")).unwrap();
     assert!(summary.contains("drive_end.first_impact_force"));
+    assert!(summary.contains("\"verdict\": \"fail\""), "{summary}");
     assert!(place.join("report.html").exists());
     // what is there is not written over
     let next = Instance::new(&packed);
@@ -394,6 +399,9 @@ fn what_cannot_be_a_unit_is_not_written() {
     .unwrap();
     let why = refused(&torque, Commands::Current, &file, &[]);
     assert!(why.contains("a drop or a machine is needed"), "{why}");
+    let why = written(&machine(&[]), ("current", "2"), &[], &file);
+    let why = why.err().unwrap().to_string();
+    assert!(why.contains("cargo build --release"), "{why}");
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     fs::write(&file, "mine").unwrap();
     let why = refused(&machine(&[]), Commands::Current, &file, &[]);

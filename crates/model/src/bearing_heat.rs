@@ -378,7 +378,7 @@ impl WarmBearing {
 
 impl Warmth {
     /// The same with no course but what is known last, from which on it is kept.
-    pub(crate) fn from_now_on(&self) -> Self {
+    pub(crate) fn going_on(&self) -> Self {
         let mut row = [0.0; NODES.len()];
         row.copy_from_slice(&self.temperatures);
         Warmth {

@@ -28,7 +28,7 @@
 //! | `sqrt`, `abs`, `+ - * /` | all | correctly rounded |
 //!
 //! # Why the unsafe code is sound
-//! This is the only crate with unsafe code; all others forbid it. There are three kinds:
+//! Beside the C interface of co-simulation units this is the only crate with unsafe code; all others forbid it. There are three kinds:
 //!
 //! - **Instructions that a machine may not have** (`x86.rs`, `dual.rs`). An intrinsic is undefined behaviour only where the
 //!   machine lacks its instructions, or where it reaches memory that is not there. The vector types and their masks are private,

@@ -124,8 +124,18 @@ impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
         let (mut outcome, seconds) = host::timed(|| self.computed(options));
-        measured::add(&self.measured, &mut outcome);
         outcome.work.seconds = seconds;
+        self.judged(outcome)
+    }
+
+    /// What came out of the machine that was driven from outside until now, judged as a run of it.
+    pub fn outcome(&self, driven: &mut Driven) -> Outcome {
+        self.judged(driven.outcome())
+    }
+
+    /// Beside measured channels, with what was known before, and with its limits.
+    fn judged(&self, mut outcome: Outcome) -> Outcome {
+        measured::add(&self.measured, &mut outcome);
         outcome.work.members = outcome.work.members.max(1);
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
         let declared: Vec<_> = warnings::declared().collect();

@@ -75,6 +75,8 @@ pub struct Stepper<'m, R: Real, B: Batch<R>, S> {
     scratch: Scratch,
     /// Lanes whose rates at their start are not known.
     fresh: u64,
+    /// Whether other machines stand on lanes than those that were gathered.
+    loaded: bool,
     iteration: u64,
 }
 
@@ -124,6 +126,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
             work,
             scratch: Scratch::new(machine.dimension(), machine.probes()),
             fresh: u64::MAX,
+            loaded: false,
             iteration: 0,
         }
     }
@@ -133,6 +136,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         self.lanes[lane] = Lane::of(start);
         load(&mut self.work, lane, start);
         self.fresh |= 1 << lane;
+        self.loaded = true;
     }
     /// Lets a lane that paused go on to a time (s), or to its end where that comes first. A run that is over stays so.
     pub fn go_on(&mut self, lane: usize, until: f64) {
@@ -249,7 +253,9 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
     }
     fn renew_fresh(&mut self) {
         if self.fresh != 0 {
-            self.gather(true);
+            // a change of mode or state alone leaves the machines
+            let loaded = std::mem::take(&mut self.loaded);
+            self.gather(loaded);
             self.begin();
         }
     }

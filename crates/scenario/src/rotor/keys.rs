@@ -356,6 +356,7 @@ pub const PARTS: &[PartKind] = &[
             lev!("controller", "delay", Kind::Quantity("s"), "50 us", "Delay of the commands.").not_negative().default("0 s", "none").unless(&["sampling_period"]),
             lev!("controller", "sampling_period", Kind::Quantity("s"), "50 us", "Period of a sampled controller; its delay is half of it and computing_time.").positive().optional("the controller runs at every instant"),
             lev!("controller", "fmu", Kind::Text, "controller.fmu", "A co-simulation unit (FMI 2.0 or 3.0) whose commands act in place of those of this table, sampled at sampling_period and held from computing_time on; relative to this file. Its inputs, in the order of its description, are the signals of the sensors, m, its outputs the commands, A or V, both axes of each magnet in the order of the magnets. The gains here stay what the linear analysis and the start take.").optional("the gains here act").beside(&["sampling_period"]),
+            lev!("controller", "fmu_hash", Kind::Text, "sha256:5891b5b522d5df086d0ff0b110fbd9d21bb4fc7163af34d08286a2e846f6be03", "Hash of the file of the unit, as a run writes it into its resolved file; a run with another file is refused.").optional("any file of this name will do").beside(&["fmu"]),
             lev!("controller", "computing_time", Kind::Quantity("s"), "25 us", "From a sample to its command.").not_negative().default("0 s", "none").beside(&["sampling_period"]),
         ],
         starting: &[],

@@ -16,10 +16,19 @@ pub struct Magnets {
     pub control: Control,
     /// When commands take effect.
     pub timing: Timing,
-    /// The file of a co-simulation unit whose commands act in place of those of the controllers.
-    pub unit: Option<String>,
+    /// The co-simulation unit whose commands act in place of those of the controllers.
+    pub unit: Option<Unit>,
     /// The table that answers for all of them: `levitation.controller.1`.
     pub path: String,
+}
+
+/// A co-simulation unit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Unit {
+    /// Its file.
+    pub file: String,
+    /// What the file must hash to, where that is given.
+    pub hash: Option<String>,
 }
 
 /// A radial magnet with its sensor.
@@ -155,7 +164,12 @@ pub(super) fn magnets<'a>(
         let allowed = "one [levitation.controller] for all magnets is needed beside fmu";
         return part.refuse(Code::Conflict, "fmu", found, allowed);
     }
-    let unit = unit.and_then(|part| part.text("fmu")).map(str::to_string);
+    let unit = unit.and_then(|part| {
+        Some(Unit {
+            file: part.text("fmu")?.to_string(),
+            hash: part.text("fmu_hash").map(str::to_string),
+        })
+    });
     let path = matrix.or(controllers.first()).unwrap_or(first).path.clone();
     Ok(Some(Magnets {
         magnets: list,

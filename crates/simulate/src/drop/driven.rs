@@ -62,7 +62,6 @@ pub struct Driven {
     built: Arc<Built>,
     member: Member,
     stepping: Stepping,
-    way: Way,
     driver: Box<dyn Driver>,
     watch: Watching,
     inputs: Vec<(Variable, Target)>,
@@ -192,7 +191,6 @@ impl Driven {
             built: built.clone(),
             member,
             stepping,
-            way,
         })
     }
 
@@ -355,7 +353,7 @@ impl Driven {
     /// How it would have ended here.
     fn ending(&self) -> Ending {
         self.driver.ending().unwrap_or_else(|| Ending {
-            stop: solve::Stop::Finished,
+            stop: solve::Stop::Interrupted,
             time: self.driver.time(),
             state: self.driver.state(),
             work: self.driver.work(),
@@ -379,10 +377,6 @@ impl Driven {
     /// Its scenario.
     pub fn scenario(&self) -> &Scenario {
         &self.scenario
-    }
-    /// How it is driven.
-    pub fn way(&self) -> Way {
-        self.way
     }
 }
 

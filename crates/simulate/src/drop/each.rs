@@ -74,7 +74,7 @@ impl<'a> One<'a> {
     /// The file of the unit that commands its magnets, where one does.
     pub(super) fn unit(&self) -> Option<&str> {
         let model = self.built.drop.shaft.as_deref()?.model.deref();
-        model.levitation.as_ref()?.unit.as_deref()
+        Some(&model.levitation.as_ref()?.unit.as_ref()?.file)
     }
     /// Whether it is the one member of its repetition that is kept whole, or no repetition.
     pub(crate) fn speaks(&self) -> bool {

@@ -108,9 +108,9 @@ impl RotorMachine {
                 *value = state[at];
             }
         }
-        for axis in 0..commands.len() {
+        for (axis, command) in commands.iter().enumerate() {
             if let Some(at) = driven.command(axis) {
-                start[at] = commands[axis];
+                start[at] = *command;
             }
         }
         Ok((driven, start))

@@ -198,7 +198,7 @@ impl Record {
         let mut now = self.clone();
         self.rows = rows;
         for bearing in &mut now.bearings {
-            bearing.warmth = (bearing.warmth.take()).map(|own| Box::new(own.from_now_on()));
+            bearing.warmth = (bearing.warmth.take()).map(|own| Box::new(own.going_on()));
         }
         now.finish(machine, time, state);
         now
