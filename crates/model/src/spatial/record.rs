@@ -37,6 +37,8 @@ pub struct SpatialRecord {
     pub axial_force: Peak,
     /// When a shoulder first met a face, s.
     pub first_axial_contact: Option<f64>,
+    /// The last instant at which they touched, at the end of a step, s.
+    pub last_axial_contact: Option<f64>,
     /// How hot shoulder and face became.
     pub face_heat: FaceHeat,
     /// Which rows have carried something.
@@ -52,6 +54,7 @@ impl SpatialRecord {
             run_over: None,
             axial_force: Peak::NONE,
             first_axial_contact: None,
+            last_axial_contact: None,
             face_heat: FaceHeat::default(),
             loaded: vec![false; bearing.rows.len()],
         }
@@ -59,6 +62,9 @@ impl SpatialRecord {
     /// Sees the faces at both ends of a step: penetrations, m, and the force at its end, N.
     pub fn faces(&mut self, times: [f64; 2], depths: [f64; 2], force: f64) {
         self.axial_force.raise(force, times[1]);
+        if depths[1] > 0.0 {
+            self.last_axial_contact = Some(times[1]);
+        }
         if self.first_axial_contact.is_some() || depths[1] <= 0.0 {
             return;
         }

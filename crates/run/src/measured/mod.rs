@@ -290,8 +290,8 @@ impl Compared {
         (high - low) / self.range()
     }
 
-    /// Rows of the samples that stand alone: beside the cubic through two neighbours on each side by more than noise.
-    fn alone(&self, values: &[f64]) -> Vec<usize> {
+    /// Rows of the samples that stand alone, and by how much: beside the cubic through two neighbours on each side by more than noise.
+    fn alone(&self, values: &[f64]) -> Vec<(usize, f64)> {
         let Some(deviation) = self.deviation() else {
             return Vec::new();
         };
@@ -305,7 +305,9 @@ impl Compared {
             around.iter().all(|own| *own <= beside[*row])
         };
         let far = (0..beside.len()).filter(|row| beside[*row] > ALONE * deviation);
-        far.filter(largest).map(|row| row + 2).collect()
+        far.filter(largest)
+            .map(|row| (row + 2, beside[row]))
+            .collect()
     }
 
     fn rms(&self) -> Result<f64, String> {

@@ -8,8 +8,10 @@ use std::f64::consts::PI;
 const APART: (f64, f64) = (PI / 18.0, 3.0);
 /// A deviation that is given differs from the scatter before the release from this ratio on.
 const OTHER: f64 = 2.0;
-/// Samples that stand alone make a warning from so many more on than twice those of the prediction.
-const FEW: usize = 2;
+/// A sample that stands alone is no edge of a contact where it is so many times farther off than any of the prediction.
+const FARTHER: f64 = 3.0;
+/// Deviations of its noise that the prediction of a channel moves by at least, for its range to say something.
+const MOVES: f64 = 8.0;
 /// A range of measured values is another one from this ratio on.
 const SIZE: f64 = 4.0;
 /// Rows are coarser than the file from this ratio of intervals on.
@@ -89,12 +91,16 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
             });
         }
         let ratio = own.ranges();
-        if ratio.is_finite() && !(1.0 / SIZE..SIZE).contains(&ratio) {
+        let moves = own.range() > MOVES * own.deviation().unwrap_or(0.0);
+        if moves && ratio.is_finite() && !(1.0 / SIZE..SIZE).contains(&ratio) {
             let part = part();
             list.push(OtherSize { part, ratio });
         }
         let [alone, expected] = [&own.measured, &own.predicted].map(|values| own.alone(values));
-        if let (Some(first), true) = (alone.first(), alone.len() > 2 * expected.len() + FEW) {
+        let farthest = |of: &[(usize, f64)]| of.iter().fold(0.0, |most: f64, own| most.max(own.1));
+        let is_more =
+            alone.len() > 2 * expected.len() || farthest(&alone) > FARTHER * farthest(&expected);
+        if let (Some((first, _)), true) = (alone.first(), is_more) {
             list.push(Alone {
                 part: part(),
                 count: alone.len() as f64,

@@ -131,7 +131,10 @@ impl Study {
         };
         let at_best = fit.outcome(&self.shares(best));
         let channels = at_best.map_or(Vec::new(), |own| measured::fitted(&curves, &own));
-        let unknown = channels.iter().filter(|own| own.deviation.is_none());
+        let still = |own: &Fitted| own.measured.windows(2).all(|two| two[0] == two[1]);
+        let unknown = channels
+            .iter()
+            .filter(|own| own.deviation.is_none() || still(own));
         let unknown: Vec<&str> = unknown.map(|own| own.name.as_str()).collect();
         if !unknown.is_empty() {
             return Some(Err(format!(

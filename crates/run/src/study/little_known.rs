@@ -7,7 +7,7 @@
 use super::Study;
 use super::table::Table;
 use crate::Options;
-use outcome::host;
+use outcome::{host, limits};
 use problem::Place;
 use problem::provenance::Provenance;
 use problem::raw::Raw;
@@ -51,6 +51,8 @@ pub struct Owed {
     pub value: Option<f64>,
     /// A pair an input.
     pub ends: Vec<[Option<f64>; 2]>,
+    /// Whether those runs end while an inner race slips on the rotor: their values may still grow.
+    pub slips: Vec<[bool; 2]>,
 }
 
 impl LittleKnown {
@@ -227,6 +229,14 @@ impl Study {
     /// What each limit owes to these inputs, of what was run of them.
     pub fn owed(&self, table: &Table, known: &[LittleKnown], ends: &Table) -> Vec<Owed> {
         let deciding = self.deciding(table);
+        let slipping: Vec<_> = (self.known.iter())
+            .filter(|own| limits::is_of(&own.name, limits::SLIPS))
+            .map(|own| ends.values(&own.name))
+            .collect();
+        let slips_in = |row: usize| {
+            let at = ends.members.binary_search(&row).ok();
+            at.is_some_and(|at| slipping.iter().any(|slips| slips[at] > Some(0.0)))
+        };
         let of = |(at, limit): (usize, &Limit)| {
             let (member, value) = self.worst(table, limit)?;
             let place = deciding.binary_search(&member).ok()?;
@@ -237,15 +247,15 @@ impl Study {
                     .ok()
                     .and_then(|at| values[at])
             };
-            let pair = |input: usize| {
-                let row = (place * known.len() + input) * 2;
-                [value_of(row), value_of(row + 1)]
-            };
+            let first = |input: usize| (place * known.len() + input) * 2;
+            let pair = |input: usize| [0, 1].map(|end| value_of(first(input) + end));
+            let slips = |input: usize| [0, 1].map(|end| slips_in(first(input) + end));
             Some(Owed {
                 limit: at,
                 member,
                 value: Some(value),
                 ends: (0..known.len()).map(pair).collect(),
+                slips: (0..known.len()).map(slips).collect(),
             })
         };
         self.file.limits.iter().enumerate().filter_map(of).collect()

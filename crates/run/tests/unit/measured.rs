@@ -275,6 +275,14 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
     let alone = codes.iter().filter(|code| **code == "AB2347");
     assert_eq!(alone.count(), 1, "{codes:?}");
 
+    // one that is off by half of the clearance is enough
+    let (codes, _) = damaged(&scenario, &run, |curve| {
+        if curve.name == "rotor.x" {
+            curve.values[150] += 120e-6;
+        }
+    });
+    assert!(codes.contains(&"AB2347"), "{codes:?}");
+
     // x and y exchanged, and y of the other sign
     let mirrored = |curve: &mut Curve| {
         if curve.name == "rotor.y" {

@@ -27,6 +27,8 @@ use std::f64::consts::PI;
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
 const CONTACT: &str = "Hunt and Crossley 1975, crates/model/src/contact.rs";
+/// A bounce through a clearance lasts no longer, s.
+const BOUNCE: f64 = 0.05;
 const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
@@ -149,21 +151,23 @@ impl<'a> Landed<'a> {
         let none = || "rotor and face never touched in this run".to_string();
         self.record.spatial.as_deref().and_then(of).ok_or_else(none)
     }
-    /// Whether the rotor still touches it at the end and slips: 1 or 0.
+    /// Whether the rotor touches it at the end, or may soon again, and slips: 1 or 0.
     fn slips_at_end(&self) -> f64 {
         let layout = self.context.setup.machine.layout();
+        let at = layout.bearings[self.k];
         let speed = |channel: usize| self.balls.end[channel].abs();
-        let race = speed(layout.bearings[self.k].inner.spin());
+        let slips = speed(at.inner.spin()) < 0.95 * speed(layout.rotor.spin());
         let contacts = &self.record.contacts;
         let pause = |from: Option<f64>, to: f64| from.map_or(0.0, |from| to - from);
-        let pauses = contacts
-            .windows(2)
-            .map(|two| pause(two[0].end, two[1].start));
-        let longest = pauses.fold(0.0, f64::max);
+        let pauses = contacts.windows(2);
+        let pauses = pauses.map(|two| pause(two[0].end, two[1].start));
+        let longest = pauses.fold(BOUNCE, f64::max);
         let now = contacts.last();
         let now = now.map(|last| pause(last.end, self.context.end));
-        let slips = race < 0.95 * speed(layout.rotor.spin());
-        f64::from(u8::from(slips && now.is_some_and(|now| now <= longest)))
+        let in_bore = now.is_some_and(|now| now <= longest);
+        let face = self.space(|own| own.last_axial_contact);
+        let on_face = face.is_ok_and(|last| self.context.end - last <= BOUNCE);
+        f64::from(u8::from(slips && (in_bore || on_face)))
     }
     fn landed_first(&self) -> Result<&'static str, String> {
         let bore = self.record.contacts.first().map(|contact| contact.start);
@@ -238,7 +242,7 @@ results! {
         "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => {
             run.balls.end[run.context.setup.machine.layout().bearings[run.k].inner.spin()]
         };
-        "slips_at_end": number "", SLIPS, "1 where the rotor touches it still at the end and its inner race is slower than 95 % of the rotor; else 0" => run.slips_at_end();
+        "slips_at_end": number "", SLIPS, "1 where the rotor touches it at the end, or may soon again, and its inner race is slower than 95 % of the rotor; else 0" => run.slips_at_end();
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.context.setup.machine.cage_speed(run.k, run.balls.end);
     }
     fn load(given: &Bearing, run: &Landed) {
@@ -421,9 +425,9 @@ origins! {
     CONTACT_FORCE: law "N = max(0, k dⁿ(1 + a ḋ)), largest of each contact",
         source CONTACT,
         valid "stiffness, exponent and damping of the landing surfaces as given; late impacts may be chaotic: repeat the run";
-    SLIPS: law "1 where |ω_i| < 0.95 |Ω| and the rotor is in contact, or has been apart for no longer than the longest pause between contacts so far; else 0",
+    SLIPS: law "1 where |ω_i| < 0.95 |Ω| and the rotor is in contact, has been apart for no longer than 50 ms or the longest pause between contacts so far, or has met a face; else 0",
         source EVENT,
-        valid "a rotor that bounces for the first time has no pause yet: 0 until it comes back";
+        valid "bounces through a clearance, of hundredths of a second";
     CONTACT_COUNT: law "begins of contact, d = 0 rising; one that lasts to the end is included",
         source EVENT,
         valid "late contacts may be chaotic: repeat the run";

@@ -266,9 +266,18 @@ impl Document<'_> {
                 None => "<b class=\"failed\">does not run</b>".to_string(),
             };
             let first = format!("R{} (run {})", owed.limit + 1, owed.member);
-            let ends = ranked
-                .iter()
-                .map(|(input, _)| owed.ends[*input].map(value).join(" / "));
+            let ends = ranked.iter().map(|(input, _)| {
+                let both = owed.ends[*input].into_iter().zip(owed.slips[*input]);
+                let both = both.map(|(end, slips)| {
+                    let mark = if slips {
+                        " <b class=\"open\">slips</b>"
+                    } else {
+                        ""
+                    };
+                    format!("{}{mark}", value(end))
+                });
+                both.collect::<Vec<_>>().join(" / ")
+            });
             [first, value(owed.value)].into_iter().chain(ends).collect()
         });
         let inputs = ranked
@@ -285,7 +294,7 @@ impl Document<'_> {
             table(&head, body),
             note(
                 "The run nearest to a requirement, or the farthest beyond it, again with one input at its low / high value and all others as it drew them; what breaks the bound is \
-                 red. Of what is drawn these are the values that 5 % of the draws fall below and exceed, of what is merely assumed half and double."
+                 red; a run that ends while a race slips, so that more may follow, is marked. Of what is drawn these are the values that 5 % of the draws fall below and exceed, of what is merely assumed half and double."
             )
         )
     }

@@ -155,6 +155,22 @@ impl Document<'_> {
         })
     }
 
+    /// Critical speeds of the rotor on its auxiliary bearings below a speed, rad/s, in words.
+    pub(super) fn critical_below(&self, speed: f64) -> Vec<String> {
+        let quantities = self
+            .rotor
+            .into_iter()
+            .flat_map(|(rotor, _)| &rotor.quantities);
+        let of = |own: &outcome::Quantity| {
+            let Value::Number(critical) = own.value else {
+                return None;
+            };
+            let name = own.name.strip_prefix("on_auxiliary_bearings.critical_")?;
+            (name.ends_with(".speed") && critical < speed).then(|| cell(Some(critical), own.unit))
+        };
+        quantities.filter_map(of).collect()
+    }
+
     /// Each case with what happens in it, and how often it is expected.
     pub(super) fn events(&self) -> String {
         let toml = self.study.file.scenario.resolved.toml();

@@ -196,9 +196,12 @@ impl Document<'_> {
             Side::Most => judged.value.map_or(f64::INFINITY, |value| -value),
             Side::Least => judged.value.unwrap_or(f64::INFINITY),
         };
-        let worst = all
-            .into_iter()
-            .min_by(|a, b| side(a.1).total_cmp(&side(b.1)));
+        // one that breaks it first, also by what never came and has no value
+        let holds = |judged: &Judged| judged.verdict != Verdict::Fail;
+        let worst = (all.into_iter()).min_by(|a, b| {
+            let order = holds(a.1).cmp(&holds(b.1));
+            order.then(side(a.1).total_cmp(&side(b.1)))
+        });
         Requirement {
             limit,
             worst,
@@ -296,6 +299,7 @@ impl Document<'_> {
             if few { " 59 leave room for 5 %." } else { "" },
         );
         out.push_str(&self.without_limit());
+        out.push_str(&self.ends_turning());
         out.push_str(&self.gravest());
         out.push_str(&self.first_table(&requirements));
         out.push_str(&note(
@@ -308,6 +312,28 @@ impl Document<'_> {
             "Bearings in space: motion and forces along the shaft, and the tilt of the rings, are in the results."
         }));
         (title, out)
+    }
+
+    /// What follows the end of the runs, where the rotor still turns then.
+    fn ends_turning(&self) -> String {
+        let spun = self.table.values("rotor_final_speed").into_iter().flatten();
+        let fastest = spun.map(f64::abs).fold(0.0, f64::max);
+        let coasts = (self.study.file.scenario.drop()).is_some_and(|own| own.coast_down.is_some());
+        if fastest <= 0.0 || coasts {
+            return String::new();
+        }
+        let critical = self.critical_below(fastest);
+        let passed = match critical.is_empty() {
+            true => String::new(),
+            false => format!(
+                " It would pass {} on its auxiliary bearings.",
+                critical.join(", ")
+            ),
+        };
+        paragraph(&format!(
+            "<b class=\"open\">The coast-down is in none of these runs</b>: they end with the rotor at up to {}. Whirl, heat, wear and life until the standstill are not shown, whatever a sum so far holds.{passed}",
+            cell(Some(fastest), "rad/s")
+        ))
     }
 
     /// Cases that no requirement judges.
