@@ -71,7 +71,7 @@ impl Session {
         if let Some(folder) = env::var_os("AUXBEAR_STUDIO_PICTURES") {
             thread::sleep(Duration::from_millis(400));
             self.browser
-                .picture(&PathBuf::from(folder).join(format!("studio_{name}.png")));
+                .picture(&PathBuf::from(folder).join(format!("studio_{name}.webp")));
         }
     }
 

@@ -29,7 +29,7 @@ pub struct Folder {
 
 /// An input file as lists show it.
 #[derive(Clone, Debug, Serialize)]
-pub struct Listed {
+pub struct InputFile {
     /// Name below the folder, with `/` between its parts.
     pub name: String,
     /// Word of its kind: a system, `study`, `qualify`; empty where the text does not say it.
@@ -113,14 +113,14 @@ impl Folder {
     }
 
     /// All input files below the folder, by name.
-    pub fn files(&self) -> Vec<Listed> {
+    pub fn files(&self) -> Vec<InputFile> {
         let mut found = Vec::new();
         self.list(&self.root, "", DEPTH, &mut found);
         found.sort_by(|a, b| a.name.cmp(&b.name));
         found
     }
 
-    fn list(&self, folder: &Path, before: &str, depth: usize, found: &mut Vec<Listed>) {
+    fn list(&self, folder: &Path, before: &str, depth: usize, found: &mut Vec<InputFile>) {
         let Ok(entries) = fs::read_dir(folder) else {
             return;
         };
@@ -218,7 +218,7 @@ pub fn changed(path: &Path) -> u64 {
 }
 
 /// An input file; none where the text is that of another program.
-fn listed(name: String, path: &Path) -> Option<Listed> {
+fn listed(name: String, path: &Path) -> Option<InputFile> {
     let small = fs::metadata(path).is_ok_and(|about| about.len() <= MOST_BYTES);
     let text = small.then(|| fs::read_to_string(path).ok())??;
     let (kind, title) = match toml::from_str::<toml::Table>(&text) {
@@ -231,7 +231,7 @@ fn listed(name: String, path: &Path) -> Option<Listed> {
         Err(_) if text.contains("auxbear.") => Default::default(),
         Err(_) => return None,
     };
-    Some(Listed {
+    Some(InputFile {
         name,
         kind,
         title,

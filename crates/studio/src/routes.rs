@@ -1,10 +1,10 @@
 //! What each address of the studio gives.
 
 use crate::check::{check, of_problem};
-use crate::edit::{Edited, Made, Step};
+use crate::edit::{AddedHeader, Edited, Step};
 use crate::folder::MOST_BYTES;
 use crate::jobs::Task;
-use crate::server::{Asked, Reply};
+use crate::server::{Call, Reply};
 use crate::{Studio, edit, keys, runs};
 use auxbear::report::{directory, export, page};
 use auxbear::{BuiltIn, Options, Scenario, bearings};
@@ -44,7 +44,7 @@ const QUICK: [(&str, &str); 3] = [
 type Answer = Result<Reply, (u16, String)>;
 
 /// Answers a request that may ask.
-pub(crate) fn route(studio: &Studio, asked: &Asked) -> Reply {
+pub(crate) fn route(studio: &Studio, asked: &Call) -> Reply {
     let answered = match asked.changes {
         true => change(studio, asked),
         false => give(studio, asked),
@@ -56,7 +56,7 @@ fn wrong(why: impl Into<String>) -> (u16, String) {
     (400, why.into())
 }
 
-fn give(studio: &Studio, asked: &Asked) -> Answer {
+fn give(studio: &Studio, asked: &Call) -> Answer {
     let folder = &studio.folder;
     let needed = |name: &str| {
         asked
@@ -155,7 +155,7 @@ fn inside(studio: &Studio, run: &str, file: &str) -> Result<std::path::PathBuf, 
         .map_err(|why| (404, why))
 }
 
-fn change(studio: &Studio, asked: &Asked) -> Answer {
+fn change(studio: &Studio, asked: &Call) -> Answer {
     let folder = &studio.folder;
     let (name, text) = (asked.text("name"), asked.text("text"));
     if text.len() as u64 > MOST_BYTES {
@@ -191,7 +191,7 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
             edited(text, edit::set(text, &steps, &literal))?
         }
         "/api/unset" => {
-            let made: Vec<Made> =
+            let made: Vec<AddedHeader> =
                 serde_json::from_value(asked.body["made"].clone()).unwrap_or_default();
             let rest = edit::unset(text, &steps(asked)?, &made);
             edited(text, rest.map(|text| Edited { text, made: None }))?
@@ -254,7 +254,7 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
     })
 }
 
-fn steps(asked: &Asked) -> Result<Vec<Step>, (u16, String)> {
+fn steps(asked: &Call) -> Result<Vec<Step>, (u16, String)> {
     serde_json::from_value(asked.body["path"].clone()).map_err(|error| wrong(error.to_string()))
 }
 
@@ -268,7 +268,7 @@ fn edited(text: &str, found: Result<Edited, String>) -> Answer {
 }
 
 /// A starting file under a name that is free, with the scenario that a study names.
-fn new(studio: &Studio, asked: &Asked) -> Result<Value, (u16, String)> {
+fn new(studio: &Studio, asked: &Call) -> Result<Value, (u16, String)> {
     let kind = asked.text("kind");
     let text = auxbear::template(kind).ok_or_else(|| wrong("no such kind"))?;
     let stem = asked.text("name").trim().trim_end_matches(".toml");

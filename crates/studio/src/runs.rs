@@ -21,11 +21,11 @@ const MOST_INPUTS: usize = 12;
 pub struct Runs {
     read: Mutex<BTreeMap<String, (u128, Value)>>,
     /// Values that files give now, by name and last change.
-    files: Mutex<BTreeMap<String, (u128, Option<Given>)>>,
+    files: Mutex<BTreeMap<String, (u128, Option<InputTexts>)>>,
 }
 
 /// Paths with their values as written.
-type Given = BTreeMap<String, String>;
+type InputTexts = BTreeMap<String, String>;
 
 impl Runs {
     /// Every run and study of the folder, the last first, with the inputs in which they differ.
@@ -107,7 +107,7 @@ impl Runs {
 }
 
 /// What the file of a scenario gives now, as a run's summary says it.
-fn given(path: &Path) -> Option<Given> {
+fn given(path: &Path) -> Option<InputTexts> {
     let scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
     let nothing = auxbear::Outcome {
         system: scenario.system.name().word(),
@@ -120,7 +120,7 @@ fn given(path: &Path) -> Option<Given> {
 }
 
 /// Inputs that a summary names, but for those that change no result.
-fn inputs_of(summary: &Value) -> Given {
+fn inputs_of(summary: &Value) -> InputTexts {
     let inputs = summary["inputs"].as_array().into_iter().flatten();
     let pair = |input: &Value| {
         Some((

@@ -79,7 +79,7 @@ impl Reply {
 }
 
 /// What is asked.
-pub struct Asked<'a> {
+pub struct Call<'a> {
     /// The path without its query.
     pub path: &'a str,
     /// Whether something may change.
@@ -89,7 +89,7 @@ pub struct Asked<'a> {
     pub body: serde_json::Value,
 }
 
-impl Asked<'_> {
+impl Call<'_> {
     /// The first value of a name in the query.
     pub fn get(&self, name: &str) -> Option<&str> {
         let mut own = self.query.iter().filter(|(known, _)| known == name);
@@ -196,7 +196,7 @@ fn reply(studio: &Studio, request: &mut Request) -> Reply {
     }
     crate::routes::route(
         studio,
-        &Asked {
+        &Call {
             path,
             changes,
             query,

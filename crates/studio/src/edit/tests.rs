@@ -66,7 +66,7 @@ fn parts_are_reached_by_their_place() {
         typed(&edited.text).unwrap()["bearing"][0]["mount"]["stiffness"]["="],
         "1"
     );
-    let made: Vec<Made> = edited.made.into_iter().collect();
+    let made: Vec<AddedHeader> = edited.made.into_iter().collect();
     assert_eq!(unset(&edited.text, &below, &made).unwrap(), text);
 }
 
@@ -138,7 +138,7 @@ proptest! {
         prop_assume!(typed(&text).is_ok());
         let Ok(edited) = set(&text, &names(path), "\"1 m\"") else { return Ok(()) };
         prop_assert_ne!(&edited.text, &text);
-        let made: Vec<Made> = edited.made.into_iter().collect();
+        let made: Vec<AddedHeader> = edited.made.into_iter().collect();
         prop_assert_eq!(unset(&edited.text, &names(path), &made).unwrap(), text);
     }
 
@@ -172,7 +172,7 @@ fn every_key_of_every_starting_file_is_set_and_unset() {
             let literal = key.literal(key.example);
             let edited = set(&text, &names(key.path), &literal)
                 .unwrap_or_else(|why| panic!("{}: {why}", key.path));
-            let made: Vec<Made> = edited.made.into_iter().collect();
+            let made: Vec<AddedHeader> = edited.made.into_iter().collect();
             let back = unset(&edited.text, &names(key.path), &made).unwrap();
             assert_eq!(back, text, "{} in {}", key.path, kind.word());
         }

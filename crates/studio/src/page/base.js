@@ -53,7 +53,7 @@ async function ask(path, body) {
   return found;
 }
 
-// Does what a person asked for, and says what went wrong with it.
+// Does what a person asked for, and names what was wrong with it.
 function attempt(act) {
   return async (...given) => {
     try {

@@ -3,6 +3,7 @@
 // The file that is open.
 let open = null;
 
+const MATERIALS = ["steel", "stainless_steel", "titanium", "aluminium", "nickel_alloy"];
 const TASKS = { study: [["study", "Run study"]], qualify: [["qualify", "Run qualification"], ["study", "Run study only"]], machine: [["run", "Run"], ["rotor", "Analyse rotor"]], rotor: [["run", "Analyse rotor"]] };
 
 async function openFile(name) {
@@ -100,8 +101,15 @@ async function editorOf(name, text, hash) {
       tasks.replaceChildren(...(kind ? offered.map(([task, label], k) => button(label, attempt(() => run(task)), { class: k ? "" : "first", title: k ? "" : "Ctrl+Enter" })) : []));
     }
     if (forms) forms.show(answer);
+    const known = byId("materials");
+    const named = typedAt(answer.typed, ["rotor", "material"]);
+    if (known && Array.isArray(named)) {
+      const list = [...MATERIALS, ...named.filter((one) => isLeaf(one.name)).map((one) => one.name["="])];
+      known.replaceChildren(...list.map((value) => el("option", { value })));
+    }
     editor.mark(answer.problem ? answer.problem.line : 0, "");
     shown(answer.problem);
+    drawing.parentNode.hidden = kind === "study" || kind === "qualify";
     if (!answer.problem) drawing.classList.toggle("none", !drawMachine(drawing, answer));
     drawing.classList.toggle("old", Boolean(answer.problem));
     const pending = waiting.splice(0);

@@ -86,11 +86,20 @@ function field(path, key, edit) {
   };
 }
 
+// The first line of what stands in a part of the text.
+function lineOf(tree) {
+  if (isLeaf(tree)) return tree.line;
+  return Object.values(tree || {}).reduce((least, value) => Math.min(least, typeof value === "object" ? lineOf(value) : Infinity), Infinity);
+}
+
+// Entries of a table as the text has them.
+const inOrder = (tree) => Object.entries(tree || {}).sort(([, one], [, other]) => lineOf(one) - lineOf(other));
+
 // Fields of all leaves of a table, however deep: [[path, typed]].
 function leavesOf(tree, path = []) {
   if (isLeaf(tree)) return [[path, tree["="]]];
   if (Array.isArray(tree) || tree === null || typeof tree !== "object") return [];
-  return Object.entries(tree).flatMap(([name, value]) => leavesOf(value, [...path, name]));
+  return inOrder(tree).flatMap(([name, value]) => leavesOf(value, [...path, name]));
 }
 
 // Keys whose values are picked from lists: bearings of the catalogue, materials known by name.
@@ -155,6 +164,7 @@ function formsOf(table, act) {
   // Rows of a list of tables: the keys that each gives, those that it may have, and the way to take it out.
   const ofList = (path, list, keys, about) => {
     const several = Array.isArray(list);
+    // a table of its own beside a list of its kind, such as a rotor with a single disk
     const cards = (several ? list : [list]).map((one, k) => {
       const at = several ? [...path, k] : path;
       const given = leavesOf(one);
@@ -170,15 +180,15 @@ function formsOf(table, act) {
         const key = keys.find((known) => known.inner === event.target.value);
         if (key) act.edit([...at, ...key.inner.split(".")], key.example || "");
       } }, el("option", { value: "" }, "+ key"), left.map((key) => el("option", { value: key.inner, title: key.doc }, words(key.inner))));
-      const title = isLeaf(one.name) ? one.name["="] : k + 1;
+      const title = isLeaf(one.name) ? one.name["="] : several ? k + 1 : "";
       return el("div", { class: "card" }, el("div", { class: "card-head" }, el("b", {}, title), left.length ? more : null, several ? button("×", () => act.remove(at), { class: "remove", "aria-label": `Remove ${pathText(path)} ${title}` }) : null), rows);
     });
     const start = () => act.add(path, about.start || keys.filter((key) => key.required).map((key) => [key.inner, key.example]));
-    return el("details", { class: "section", open: state.layout[`open:${pathText(path)}`] ?? cards.length > 0, ontoggle: (event) => keepLayout({ [`open:${pathText(path)}`]: event.target.open }) }, el("summary", {}, el("b", {}, `${pathText(path)} (${cards.length})`), el("span", { class: "about" }, about.doc || "")), el("div", { class: "cards" }, cards), button(`+ ${words(path[path.length - 1])}`, start, { class: "add" }));
+    return el("details", { class: "section", open: state.layout[`open:${pathText(path)}`] ?? cards.length > 0, ontoggle: (event) => keepLayout({ [`open:${pathText(path)}`]: event.target.open }) }, el("summary", {}, el("b", {}, several ? `${pathText(path)} (${cards.length})` : pathText(path)), el("span", { class: "about" }, about.doc || "")), el("div", { class: "cards" }, cards), several ? button(`+ ${words(path[path.length - 1])}`, start, { class: "add" }) : null);
   };
 
   // Everything of a text that no table of keys names: by its schema.
-  const byScheme = (tree, path) => Object.entries(tree || {}).map(([name, value]) => {
+  const byScheme = (tree, path) => inOrder(tree).map(([name, value]) => {
     const at = [...path, name];
     const scheme = schemaAt(table.schema, at);
     if (isLeaf(value)) {
@@ -228,7 +238,7 @@ function formsOf(table, act) {
       const held = new Map(lastValues.filter((value) => !value.bearing).map((value) => [value.path, value]));
       for (const value of lastValues) if (value.bearing && !held.has(value.path)) held.set(value.path, value);
       const active = document.activeElement && document.activeElement.closest(".field");
-      // rows are put in anew only where keys came or went
+      // rows are put in anew only where keys came or were taken out
       const now = JSON.stringify(tree, (name, value) => (name === "=" || name === "line" ? 0 : value));
       if (now !== shape) {
         shape = now;
