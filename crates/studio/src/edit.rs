@@ -298,7 +298,8 @@ fn of_value(text: &str, value: &Value) -> Json {
 }
 
 impl Step {
-    fn name(&self) -> Option<&str> {
+    /// The name, where it is one.
+    pub fn name(&self) -> Option<&str> {
         match self {
             Step::Name(name) => Some(name),
             Step::Place(_) => None,

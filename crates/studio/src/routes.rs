@@ -7,6 +7,7 @@ use crate::jobs::Task;
 use crate::server::{Call, Reply};
 use crate::{Studio, edit, keys, runs};
 use auxbear::report::{directory, export, page};
+use auxbear::scenario::several::AUXILIARY_BEARING;
 use auxbear::{BuiltIn, Options, Scenario, bearings};
 use serde_json::{Value, json};
 use std::fs;
@@ -179,15 +180,7 @@ fn change(studio: &Studio, asked: &Call) -> Answer {
         "/api/new" => Reply::json(&new(studio, asked)?),
         "/api/set" => {
             let steps = steps(asked)?;
-            let names: Vec<&str> = (steps.iter())
-                .filter_map(|step| match step {
-                    Step::Name(name) if name != auxbear::scenario::several::AUXILIARY_BEARING => {
-                        Some(name.as_str())
-                    }
-                    _ => None,
-                })
-                .collect();
-            let literal = keys::literal(asked.text("kind"), &names.join("."), asked.text("value"));
+            let literal = keys::literal(asked.text("kind"), &key_of(&steps), asked.text("value"));
             edited(text, edit::set(text, &steps, &literal))?
         }
         "/api/unset" => {
@@ -200,17 +193,7 @@ fn change(studio: &Studio, asked: &Call) -> Answer {
             let keys: Vec<(String, String)> =
                 serde_json::from_value(asked.body["keys"].clone()).unwrap_or_default();
             let steps = steps(asked)?;
-            let names: Vec<&str> = steps
-                .iter()
-                .filter_map(|step| {
-                    if let Step::Name(name) = step {
-                        Some(name.as_str())
-                    } else {
-                        None
-                    }
-                })
-                .collect();
-            let of = names.join(".");
+            let of = key_of(&steps);
             let keys: Vec<(String, String)> = keys
                 .into_iter()
                 .map(|(name, value)| {
@@ -256,6 +239,13 @@ fn change(studio: &Studio, asked: &Call) -> Answer {
 
 fn steps(asked: &Call) -> Result<Vec<Step>, (u16, String)> {
     serde_json::from_value(asked.body["path"].clone()).map_err(|error| wrong(error.to_string()))
+}
+
+/// The dotted path of the key that steps lead to, whichever of several bearings it is of.
+fn key_of(steps: &[Step]) -> String {
+    let names = steps.iter().filter_map(Step::name);
+    let names: Vec<&str> = names.filter(|name| *name != AUXILIARY_BEARING).collect();
+    names.join(".")
 }
 
 /// A text after a change; one that cannot be read has none yet.

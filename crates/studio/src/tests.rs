@@ -332,6 +332,46 @@ fn a_run_is_stopped_and_keeps_what_it_has_and_the_queue_goes_on() {
 }
 
 #[test]
+fn a_study_is_stale_once_its_scenario_changes_and_then_begins_anew() {
+    served(|client, folder| {
+        client
+            .post("api/new", &json!({ "kind": "study", "name": "many" }))
+            .unwrap();
+        client
+            .change("drop.toml", "drop", "run.duration", "8 ms")
+            .unwrap();
+        client
+            .change("many.toml", "study", "design.members", "2")
+            .unwrap();
+        let differs = || {
+            let table = read(client, "api/runs");
+            let rows = table["rows"].as_array().unwrap();
+            rows.iter()
+                .find(|row| row["directory"] == "runs/many")
+                .unwrap()["differs"]
+                .clone()
+        };
+        client.run("many.toml", "study").unwrap();
+        assert_eq!(differs(), json!([]));
+        // the same study goes on where it is
+        assert_eq!(
+            client.run("many.toml", "study").unwrap()["directory"],
+            "runs/many"
+        );
+        client
+            .change("drop.toml", "drop", "rotor.mass", "9 kg")
+            .unwrap();
+        assert_eq!(differs()[0][0], "scenario");
+        assert!(differs()[0][2].as_str().unwrap().contains("9 kg"));
+        assert_eq!(
+            client.run("many.toml", "study").unwrap()["directory"],
+            "runs/many-2"
+        );
+        assert!(folder.join("runs/many-2/report.html").exists());
+    });
+}
+
+#[test]
 fn of_several_requests_the_last_counts() {
     let latest = Latest::default();
     let begun = AtomicBool::new(false);
