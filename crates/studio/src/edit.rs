@@ -381,7 +381,7 @@ fn within<'a>(value: &'a Value, rest: &[Step], key: Option<Places>) -> Target<'a
     let list: Option<&Array> = value.as_array();
     match (rest, inline, list) {
         ([], Some(table), _) => match table.get("value") {
-            Some(own) => Target::Value(own, None).keyed(key),
+            Some(own) => Target::Value(own, key),
             None => Target::Fixed,
         },
         ([], None, _) => Target::Value(value, key),
@@ -394,15 +394,6 @@ fn within<'a>(value: &'a Value, rest: &[Step], key: Option<Places>) -> Target<'a
             None => Target::Fixed,
         },
         _ => Target::Fixed,
-    }
-}
-
-impl Target<'_> {
-    fn keyed(self, key: Option<Places>) -> Self {
-        match self {
-            Target::Value(value, _) => Target::Value(value, key),
-            other => other,
-        }
     }
 }
 

@@ -33,7 +33,6 @@ const NAMED: &str = include_str!("page/named.js");
 const LAYOUT: &str = ".auxbear-studio.json";
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";
-const TEXT: &str = "text/plain; charset=utf-8";
 
 /// Values of an analysis that is shown while its file is edited: the closed loop needs no fine diagrams.
 const QUICK: [(&str, &str); 3] = [
@@ -137,13 +136,6 @@ fn give(studio: &Studio, asked: &Call) -> Answer {
             let name = format!("{}-{file}", run.rsplit('/').next().unwrap_or(run));
             Reply::download(&name, body)
         }
-        "/text" => {
-            let path = inside(studio, needed("run")?, needed("file")?)?;
-            Reply::own(
-                TEXT,
-                fs::read(path).map_err(|error| (404, error.to_string()))?,
-            )
-        }
         _ => return Err((404, "nothing has this address".to_string())),
     })
 }
@@ -221,11 +213,6 @@ fn change(studio: &Studio, asked: &Call) -> Answer {
             studio
                 .jobs
                 .stop(asked.body["id"].as_u64().unwrap_or(0) as usize);
-            Reply::json(&json!({}))
-        }
-        "/api/report" => {
-            let run = folder.path(asked.text("run")).map_err(wrong)?;
-            directory::rewrite_report(&run).map_err(|problem| wrong(problem.to_string()))?;
             Reply::json(&json!({}))
         }
         "/api/layout" => {

@@ -85,6 +85,22 @@ fn what_no_field_can_change_is_refused() {
     assert!(set("a = 1\n", &names("a"), "not a value").is_err());
 }
 
+#[test]
+fn a_mark_of_the_encoding_stays_in_front() {
+    let text = "\u{feff}a = 1\n[b]\nc = 2\n";
+    assert_eq!(
+        set(text, &names("b.c"), "3").unwrap().text,
+        text.replace('2', "3")
+    );
+    assert_eq!(
+        set(text, &names("a"), "3").unwrap().text,
+        text.replace('1', "3")
+    );
+    let added = set(text, &names("b.d"), "4").unwrap().text;
+    assert_eq!(added, format!("{text}d = 4\n"));
+    assert_eq!(unset(&added, &names("b.d"), &[]).unwrap(), text);
+}
+
 /// Pieces of files: with and without values, comments, indentation, dotted keys, the last line break, and both kinds of line breaks.
 fn texts() -> impl Strategy<Value = String> {
     let line = prop_oneof![

@@ -28,6 +28,8 @@ async function editorOf(name, text, hash) {
   let soon = 0;
   let later = 0;
   let wanted = null;
+  // whether fields show what stands in the text although they are typed in
+  let forced = false;
   const dirty = () => past.now !== saved.text;
 
   const editor = textEditor((now) => {
@@ -66,6 +68,7 @@ async function editorOf(name, text, hash) {
   }
 
   function restore(now) {
+    forced = true;
     editor.show(now);
     changed(true);
   }
@@ -100,7 +103,8 @@ async function editorOf(name, text, hash) {
       const offered = TASKS[kind] || [["run", "Run"]];
       tasks.replaceChildren(...(kind ? offered.map(([task, label], k) => button(label, attempt(() => run(task)), { class: k ? "" : "first", title: k ? "" : "Ctrl+Enter" })) : []));
     }
-    if (forms) forms.show(answer);
+    if (forms) forms.show({ ...answer, forced });
+    forced = false;
     const known = byId("materials");
     const named = typedAt(answer.typed, ["rotor", "material"]);
     if (known && Array.isArray(named)) {

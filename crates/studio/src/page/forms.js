@@ -59,9 +59,9 @@ function field(path, key, edit) {
     input,
     flush,
     // value as typed (none where the text does not give it), what holds without it, its mark and where it comes from
-    show({ typed, held, mark: word, note: why }) {
+    show({ typed, held, mark: word, note: why, forced }) {
       const text = typed === undefined ? "" : typed;
-      if (document.activeElement !== input || choices) {
+      if (forced || document.activeElement !== input || choices) {
         if (choices && text && !choices.includes(text)) input.append(el("option", { value: text }, text));
         input.value = text;
       }
@@ -232,7 +232,7 @@ function formsOf(table, act) {
     node: el("div", { class: "form-side" }, el("div", { class: "form-tools" }, filter), node),
     filter,
     // Fields after a check that could read the text; those of a text that cannot be read keep what they have.
-    show({ typed: tree, values, problem }) {
+    show({ typed: tree, values, problem, forced }) {
       // beside a mistake the values from before it
       lastValues = values || lastValues;
       const held = new Map(lastValues.filter((value) => !value.bearing).map((value) => [value.path, value]));
@@ -258,9 +258,9 @@ function formsOf(table, act) {
         const known = held.get(name);
         if (lists.contains(row.node)) {
           const inList = typedAt(tree, name.split("."));
-          row.show({ typed: isLeaf(inList) ? inList["="] : undefined, note: leaf && (leaf.source || leaf.assumed), mark: leaf && leaf.assumed ? "assumed" : "" });
+          row.show({ typed: isLeaf(inList) ? inList["="] : undefined, note: leaf && (leaf.source || leaf.assumed), mark: leaf && leaf.assumed ? "assumed" : "", forced });
         } else {
-          row.show({ typed: leaf && !leaf.from ? leaf["="] : undefined, held: known ? known.text : leaf && leaf["="], mark: known && known.text ? known.mark : "", note: known ? known.note : "" });
+          row.show({ typed: leaf && !leaf.from ? leaf["="] : undefined, held: known ? known.text : leaf && leaf["="], mark: known && known.text ? known.mark : "", note: known ? known.note : "", forced });
           // a key without a meaning now stands aside
           if (values) row.node.classList.toggle("idle", !known && leaf === undefined);
         }

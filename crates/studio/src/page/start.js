@@ -30,7 +30,7 @@ function files() {
     }, { class: making ? "" : "first", id: "new" })),
     making || none ? newFile() : "",
     none ? el("p", { class: "absent" }, "This folder has no input file yet: choose what to begin with.") : "",
-    el("ul", {}, state.files.map((file) => el("li", { class: address().view === "edit" && file.name === name ? "on" : "" }, el("a", { href: `#/edit/${encodeURI(file.name)}`, title: file.title }, file.name.replace(/\.toml$/, "")), el("small", {}, words(file.kind || "?"))))),
+    el("ul", {}, state.files.map((file) => el("li", { class: address().view === "edit" && file.name === name ? "on" : "" }, el("a", { href: hrefOf("edit", file.name), title: file.title }, file.name.replace(/\.toml$/, "")), el("small", {}, words(file.kind || "?"))))),
   );
 }
 
