@@ -101,7 +101,7 @@ fn drawing_of(scenario: &Scenario) -> Option<String> {
     if let Some(like) = list.quantities.first().cloned() {
         let positions = places.iter().map(|(at, _)| *at).collect();
         list.quantities.push(Quantity {
-            name: "bearing_positions".to_string(),
+            name: "bearings".to_string(),
             value: ResultValue::List(positions),
             shown: vec![("bearings", "place".to_string())],
             ..like

@@ -221,19 +221,17 @@ fn a_shaft_and_its_closed_loop_are_drawn_from_the_text() {
         let found = client.post("api/check", &body).unwrap();
         let drawing: Value = serde_json::from_str(found["drawing"].as_str().unwrap()).unwrap();
         let summary: Value = serde_json::from_str(drawing["summary"].as_str().unwrap()).unwrap();
-        assert!(
-            summary["quantities"]["piece_starts"]["value"]
-                .as_array()
-                .unwrap()
-                .len()
-                > 3
-        );
+        let mut results = summary["quantities"].as_object().unwrap().values();
+        let starts = results
+            .find(|own| own["shown"]["pieces"] == "start")
+            .unwrap();
+        assert!(starts["value"].as_array().unwrap().len() > 3);
         let begin = std::time::Instant::now();
         let found = client.post("api/analysis", &body).unwrap();
         let seconds = begin.elapsed().as_secs_f64();
         let run: Value = serde_json::from_str(found["run"].as_str().unwrap()).unwrap();
         let summary = run["summary"].as_str().unwrap();
-        assert!(summary.contains(".rated.sensitivity") && summary.contains("open_loop_real"));
+        assert!(summary.contains(".rated.sensitivity\""));
         // built for speed it is several times quicker
         assert!(seconds < 10.0, "{seconds} s");
         let none = client

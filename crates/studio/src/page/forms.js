@@ -220,7 +220,7 @@ function formsOf(table, act) {
       ...rest.map((word) => {
         const items = (schemaAt(table.schema, [word, 0]) || {}).properties || {};
         const keys = Object.entries(items).map(([inner, one]) => ({ inner, ...keyOfSchema(one, inner) }));
-        const start = word === "limit" ? [["quantity", "peak_contact_force"], ["most", "5 kN"]] : null;
+        const start = word === "limit" ? table.limit : null;
         return ofList([word], tree[word] || [], keys, { doc: ((table.schema.properties || {})[word] || {}).description, start });
       }),
     ];
