@@ -61,7 +61,7 @@ function field(path, key, edit) {
     // value as typed (none where the text does not give it), what holds without it, its mark and where it comes from
     show({ typed, held, mark: word, note: why, forced }) {
       const text = typed === undefined ? "" : typed;
-      if (forced || document.activeElement !== input || choices) {
+      if (!waiting && (forced || document.activeElement !== input || choices)) {
         if (choices && text && !choices.includes(text)) input.append(el("option", { value: text }, text));
         input.value = text;
       }
