@@ -21,20 +21,20 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
     let settings = Settings {
         folder: wish.folder.as_deref().unwrap_or(Path::new(".")),
         port: wish.port,
-        say: Box::new(|line| console::report(line)),
+        say: Box::new(console::report),
         date: || Utc::now().date_naive().to_string(),
     };
     let studio = Arc::new(Studio::open(settings)?);
     let own = studio.clone();
     let stopped = Arc::new(AtomicBool::new(false));
-    let told = stopped.clone();
+    let computing = stopped.clone();
     let mut interrupted = false;
     let handler = move || {
         if std::mem::replace(&mut interrupted, true) {
             process::exit(130);
         }
         if own.end() {
-            told.store(true, Ordering::Relaxed);
+            computing.store(true, Ordering::Relaxed);
             console::report("stopping: what was computed is kept; a second interrupt ends at once");
         }
     };

@@ -17,7 +17,7 @@ const FRONTS: [&str; 6] = [
     "cli/src/",
     "python/src/",
     "python/auxbear/",
-    "studio/src/",
+    "crates/studio/src/",
     "xtask/src/",
 ];
 

@@ -79,7 +79,7 @@ fn words_that_are_no_command() {
         &["rnu", "drop.toml"][..],
         &["run"],
         &["run", "drop.toml", "--ouput", "x"],
-        &["stduio"],
+        &["studio", "--port", "many"],
         &[],
     ] {
         let called = place.call(words);

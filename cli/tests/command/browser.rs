@@ -51,10 +51,13 @@ impl Browser {
             .spawn()
             .unwrap();
         let (sender, output) = channel();
-        let mut told = BufReader::new(child.stdout.take().unwrap());
+        let mut message = BufReader::new(child.stdout.take().unwrap());
         thread::spawn(move || {
             let mut bytes = Vec::new();
-            while told.read_until(0, &mut bytes).is_ok_and(|count| count > 0) {
+            while message
+                .read_until(0, &mut bytes)
+                .is_ok_and(|count| count > 0)
+            {
                 bytes.pop();
                 let value = serde_json::from_slice(&bytes);
                 if value.is_ok_and(|value| sender.send(value).is_err()) {
@@ -85,12 +88,20 @@ impl Browser {
     fn attach(&mut self, target: &Value) {
         self.session = None;
         let given = json!({ "targetId": target, "flatten": true });
-        let session = self.call("Target.attachToTarget", given)["sessionId"].clone();
-        self.session = session.as_str().map(str::to_string);
+        let found = self.asked("Target.attachToTarget", given, PATIENCE);
+        self.session = found
+            .ok()
+            .and_then(|found| found["sessionId"].as_str().map(str::to_string));
     }
 
     /// Asks the browser, and takes note of faults that it reports meanwhile.
     pub fn call(&mut self, method: &str, given: Value) -> Value {
+        self.asked(method, given, PATIENCE)
+            .unwrap_or_else(|error| panic!("{method}: {error}"))
+    }
+
+    /// The same; an error where the page was just left, or does not answer in some time.
+    fn asked(&mut self, method: &str, given: Value, patience: Duration) -> Result<Value, String> {
         self.number += 1;
         let mut asked = json!({ "id": self.number, "method": method, "params": given });
         if let Some(session) = &self.session {
@@ -100,21 +111,26 @@ impl Browser {
             .write_all(format!("{asked}\0").as_bytes())
             .unwrap();
         self.input.flush().unwrap();
+        let begin = Instant::now();
         loop {
-            let told = self.output.recv_timeout(PATIENCE);
-            let told = told
-                .unwrap_or_else(|error| panic!("{method}: the browser does not answer: {error}"));
-            let is_fault = match told["method"].as_str() {
+            let left = patience.saturating_sub(begin.elapsed());
+            let message = self
+                .output
+                .recv_timeout(left)
+                .map_err(|error| error.to_string())?;
+            let is_fault = match message["method"].as_str() {
                 Some("Runtime.exceptionThrown") => true,
-                Some("Log.entryAdded") => told["params"]["entry"]["level"] == "error",
+                Some("Log.entryAdded") => message["params"]["entry"]["level"] == "error",
                 _ => false,
             };
             if is_fault {
-                self.faults.push(told["params"].to_string());
+                self.faults.push(message["params"].to_string());
             }
-            if told["id"] == self.number {
-                assert!(told["error"].is_null(), "{method}: {told}");
-                return told["result"].clone();
+            if message["id"] == self.number {
+                return match message["error"].is_null() {
+                    true => Ok(message["result"].clone()),
+                    false => Err(message["error"].to_string()),
+                };
             }
         }
     }
@@ -148,7 +164,13 @@ impl Browser {
         let seen = format!(
             "(() => {{ try {{ return Boolean({expression}); }} catch {{ return false; }} }})()"
         );
-        while self.value(&seen) != json!(true) {
+        loop {
+            let given = json!({ "expression": seen, "returnByValue": true });
+            // a page that is just left has nothing to see
+            let found = self.asked("Runtime.evaluate", given, Duration::from_secs(5));
+            if found.is_ok_and(|found| found["result"]["value"] == true) {
+                return;
+            }
             let page = || "document.body.innerText.slice(0, 1500)";
             assert!(
                 begin.elapsed() < PATIENCE,
@@ -223,7 +245,9 @@ impl Browser {
             if let Some(frame) = frame {
                 self.attach(&frame["targetId"]);
                 let given = json!({ "expression": expression, "returnByValue": true });
-                let found = self.call("Runtime.evaluate", given)["result"]["value"].clone();
+                // a frame that is just left does not answer
+                let found = self.asked("Runtime.evaluate", given, Duration::from_secs(2));
+                let found = found.map_or(Value::Null, |found| found["result"]["value"].clone());
                 if !found.is_null() && found != json!(0) && found != json!(false) {
                     self.session = own;
                     return found;
@@ -235,9 +259,12 @@ impl Browser {
         }
     }
 
-    /// A picture of the page as a PNG file.
+    /// A picture of the page as a WebP file.
     pub fn picture(&mut self, file: &Path) {
-        let found = self.call("Page.captureScreenshot", json!({ "format": "png" }));
+        let found = self.call(
+            "Page.captureScreenshot",
+            json!({ "format": "webp", "quality": 82 }),
+        );
         fs::write(file, decoded(found["data"].as_str().unwrap())).unwrap();
     }
 }

@@ -71,7 +71,7 @@ impl Session {
         if let Some(folder) = env::var_os("AUXBEAR_STUDIO_PICTURES") {
             thread::sleep(Duration::from_millis(400));
             self.browser
-                .picture(&PathBuf::from(folder).join(format!("studio_{name}.png")));
+                .picture(&PathBuf::from(folder).join(format!("studio_{name}.webp")));
         }
     }
 
@@ -145,7 +145,7 @@ fn from_an_empty_folder_to_a_finished_drop_and_on() {
     session.picture("mistake");
     session.browser.key("z", 90, 2);
     session.browser.wait(
-        "!document.querySelector('.field.wrong') && document.querySelector('.problem').hidden",
+        "!document.querySelector('.field.wrong') && document.querySelector('.problem').hidden && document.getElementById('field-rotor.mass').value === '8 kg'",
     );
 
     // while the text is broken fields wait, and what is typed is kept

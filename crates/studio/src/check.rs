@@ -3,7 +3,7 @@
 use crate::edit::typed;
 use auxbear::outcome::Picture;
 use auxbear::outcome::list::List;
-use auxbear::outcome::{Quantity, Value as Found};
+use auxbear::outcome::{Quantity, Value as ResultValue};
 use auxbear::report::{directory, page};
 use auxbear::scenario::{Body, Resolved, ResolvedValue, StudyFile, System, rotor::FlexibleRotor};
 use auxbear::simulate::drawing;
@@ -101,8 +101,8 @@ fn drawing_of(scenario: &Scenario) -> Option<String> {
     if let Some(like) = list.quantities.first().cloned() {
         let positions = places.iter().map(|(at, _)| *at).collect();
         list.quantities.push(Quantity {
-            name: "bearing_positions".to_string(),
-            value: Found::List(positions),
+            name: "bearings".to_string(),
+            value: ResultValue::List(positions),
             shown: vec![("bearings", "place".to_string())],
             ..like
         });

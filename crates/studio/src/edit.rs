@@ -20,7 +20,7 @@ pub enum Step {
 
 /// A header that a change put in, with what stands before it: the same path takes it away with its last key.
 #[derive(Clone, Debug, Deserialize, PartialEq, Eq, Serialize)]
-pub struct Made {
+pub struct AddedHeader {
     /// The header as written, `[mount]`.
     pub header: String,
     /// The line breaks before it that came with it.
@@ -33,7 +33,7 @@ pub struct Edited {
     /// The text.
     pub text: String,
     /// The header that the change put in, where it did.
-    pub made: Option<Made>,
+    pub made: Option<AddedHeader>,
 }
 
 type Places = Range<usize>;
@@ -113,7 +113,7 @@ pub fn set(text: &str, path: &[Step], literal: &str) -> Result<Edited, String> {
                 true => format!("{before}{header}{newline}{line}{newline}"),
                 false => format!("{before}{header}{newline}{line}"),
             };
-            made = Some(Made { header, before });
+            made = Some(AddedHeader { header, before });
             spliced(text, end..end, &block)
         }
         Target::Fixed => return Err(no_place()),
@@ -133,7 +133,7 @@ pub fn set(text: &str, path: &[Step], literal: &str) -> Result<Edited, String> {
 ///
 /// # Errors
 /// Where there is no such key on a line of its own.
-pub fn unset(text: &str, path: &[Step], made: &[Made]) -> Result<String, String> {
+pub fn unset(text: &str, path: &[Step], made: &[AddedHeader]) -> Result<String, String> {
     let document = parsed(text)?;
     let Target::Value(value, Some(key)) = target(document.as_table(), path) else {
         return Err(no_place());
@@ -298,7 +298,8 @@ fn of_value(text: &str, value: &Value) -> Json {
 }
 
 impl Step {
-    fn name(&self) -> Option<&str> {
+    /// The name, where it is one.
+    pub fn name(&self) -> Option<&str> {
         match self {
             Step::Name(name) => Some(name),
             Step::Place(_) => None,
@@ -380,7 +381,7 @@ fn within<'a>(value: &'a Value, rest: &[Step], key: Option<Places>) -> Target<'a
     let list: Option<&Array> = value.as_array();
     match (rest, inline, list) {
         ([], Some(table), _) => match table.get("value") {
-            Some(own) => Target::Value(own, None).keyed(key),
+            Some(own) => Target::Value(own, key),
             None => Target::Fixed,
         },
         ([], None, _) => Target::Value(value, key),
@@ -393,15 +394,6 @@ fn within<'a>(value: &'a Value, rest: &[Step], key: Option<Places>) -> Target<'a
             None => Target::Fixed,
         },
         _ => Target::Fixed,
-    }
-}
-
-impl Target<'_> {
-    fn keyed(self, key: Option<Places>) -> Self {
-        match self {
-            Target::Value(value, _) => Target::Value(value, key),
-            other => other,
-        }
     }
 }
 

@@ -2,18 +2,23 @@
 
 use auxbear::Code;
 use auxbear::Problem;
+use auxbear::report::directory::RUNS;
 use auxbear::scenario::{SystemName, study_file::STUDY_FORMAT, template::STUDY};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
+use std::collections::BTreeMap;
 use std::fs::{self, File, TryLockError};
 use std::io::Write;
 use std::path::{Component, Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use std::time::UNIX_EPOCH;
 
 /// Name of the file that holds the lock and the address of the studio that has it.
 const LOCK: &str = ".auxbear-studio";
 /// How deep below the folder files are listed.
 const DEPTH: usize = 3;
+/// Most entries of a folder that are looked through.
+const MOST_ENTRIES: usize = 5000;
 /// Most files of a list.
 const MOST_FILES: usize = 2000;
 /// Most bytes of an input file that is edited.
@@ -25,11 +30,13 @@ type Result<T> = std::result::Result<T, Box<Problem>>;
 pub struct Folder {
     root: PathBuf,
     lock: File,
+    /// Input files by name, as they were at their last change.
+    known: Mutex<BTreeMap<String, (u128, Option<InputFile>)>>,
 }
 
 /// An input file as lists show it.
 #[derive(Clone, Debug, Serialize)]
-pub struct Listed {
+pub struct InputFile {
     /// Name below the folder, with `/` between its parts.
     pub name: String,
     /// Word of its kind: a system, `study`, `qualify`; empty where the text does not say it.
@@ -70,7 +77,11 @@ impl Folder {
             let needed = "one studio a folder is possible: use that one, or end it first";
             return Err(Problem::at_path(Code::FolderInUse, path, found, needed));
         }
-        Ok(Folder { root, lock })
+        Ok(Folder {
+            root,
+            lock,
+            known: Mutex::default(),
+        })
     }
 
     /// Notes the address for whoever asks for the folder meanwhile.
@@ -113,18 +124,16 @@ impl Folder {
     }
 
     /// All input files below the folder, by name.
-    pub fn files(&self) -> Vec<Listed> {
+    pub fn files(&self) -> Vec<InputFile> {
         let mut found = Vec::new();
         self.list(&self.root, "", DEPTH, &mut found);
         found.sort_by(|a, b| a.name.cmp(&b.name));
         found
     }
 
-    fn list(&self, folder: &Path, before: &str, depth: usize, found: &mut Vec<Listed>) {
-        let Ok(entries) = fs::read_dir(folder) else {
-            return;
-        };
-        for entry in entries.flatten() {
+    fn list(&self, folder: &Path, before: &str, depth: usize, found: &mut Vec<InputFile>) {
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        for entry in entries.take(MOST_ENTRIES) {
             let own = entry.file_name().to_string_lossy().into_owned();
             let name = format!("{before}{own}");
             let path = entry.path();
@@ -132,14 +141,28 @@ impl Folder {
                 continue;
             }
             if path.is_dir() {
-                // what a run or a study left is no input
-                if depth > 1 && !path.join("summary.json").exists() {
+                // what runs and studies left is no input
+                let left =
+                    name == RUNS || own.ends_with(".partial") || path.join("summary.json").exists();
+                if depth > 1 && !left {
                     self.list(&path, &format!("{name}/"), depth - 1, found);
                 }
             } else if own.ends_with(".toml") {
-                found.extend(listed(name, &path));
+                found.extend(self.known(name, &path));
             }
         }
+    }
+
+    /// An input file, which is read again only where it has changed.
+    fn known(&self, name: String, path: &Path) -> Option<InputFile> {
+        let at = stamp(path);
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, file)) = known.get(&name).filter(|(then, _)| *then == at) {
+            return file.clone();
+        }
+        let file = listed(name.clone(), path);
+        known.insert(name, (at, file.clone()));
+        file
     }
 
     /// Reads an input file: its text and the hash of it.
@@ -218,7 +241,7 @@ pub fn changed(path: &Path) -> u64 {
 }
 
 /// An input file; none where the text is that of another program.
-fn listed(name: String, path: &Path) -> Option<Listed> {
+fn listed(name: String, path: &Path) -> Option<InputFile> {
     let small = fs::metadata(path).is_ok_and(|about| about.len() <= MOST_BYTES);
     let text = small.then(|| fs::read_to_string(path).ok())??;
     let (kind, title) = match toml::from_str::<toml::Table>(&text) {
@@ -231,7 +254,7 @@ fn listed(name: String, path: &Path) -> Option<Listed> {
         Err(_) if text.contains("auxbear.") => Default::default(),
         Err(_) => return None,
     };
-    Some(Listed {
+    Some(InputFile {
         name,
         kind,
         title,

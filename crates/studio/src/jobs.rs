@@ -9,14 +9,18 @@ use auxbear::study::Study;
 use auxbear::{BuiltIn, Code, Problem, Scenario, StudyFile};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
+use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 /// Most points of an orbit that is shown while it is computed; of more every second one is dropped.
 const MOST_POINTS: usize = 12_000;
+
+/// Time between documents of a qualification that is computed.
+const INTERIM: Duration = Duration::from_secs(60);
 
 /// What is done with a file.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
@@ -220,7 +224,7 @@ impl Jobs {
                     job.begun = Some(Instant::now());
                     break job.clone();
                 }
-                let wait = std::time::Duration::from_millis(200);
+                let wait = Duration::from_millis(200);
                 list = self
                     .woken
                     .wait_timeout(list, wait)
@@ -254,7 +258,7 @@ impl Jobs {
             own.directory.clone().unwrap_or_default()
         });
         let place = place.unwrap_or_default();
-        (self.say)(&format!("{}: {words} {place}", job.file).trim_end());
+        (self.say)(format!("{}: {words} {place}", job.file).trim_end());
     }
 
     fn change<T>(&self, id: usize, change: impl FnOnce(&mut Job) -> T) -> Option<T> {
@@ -364,9 +368,17 @@ impl Jobs {
         let options = Options::unwatched(&job.interrupt);
         let (complete, failed, members) = match job.task {
             Task::Qualify => {
+                let written = Cell::new(Instant::now());
+                let due = || {
+                    let due = written.get().elapsed() > INTERIM;
+                    if due {
+                        written.set(Instant::now());
+                    }
+                    due
+                };
                 let wish = Wish {
                     date: &(self.date)(),
-                    due: &|| false,
+                    due: &due,
                     progress: &tell,
                 };
                 let found = directory.qualify(&options, &wish)?;

@@ -37,8 +37,11 @@ pub fn of_kind(kind: &str) -> Option<Value> {
             json!({ "path": part.path(), "doc": part.doc, "keys": keys, "start": first })
         })
         .collect();
+    let (quantity, bound) = system.limit_example();
+    let (side, value) = bound.split_once(" = ").unwrap_or((bound, ""));
+    let limit = [["quantity", quantity], [side, value.trim_matches('"')]];
     Some(
-        json!({ "kind": kind, "sections": sections, "parts": parts, "several": system.has_auxiliary_bearings(), "schema": schema }),
+        json!({ "kind": kind, "sections": sections, "parts": parts, "limit": limit, "several": system.has_auxiliary_bearings(), "schema": schema }),
     )
 }
 

@@ -115,7 +115,7 @@ impl Studio {
                     while !self.ended.load(Ordering::Relaxed) {
                         match self.server.recv() {
                             Ok(request) => server::answer(self, request),
-                            // it was told to stop
+                            // it was unblocked to end
                             Err(_) => return,
                         }
                     }

@@ -65,6 +65,11 @@ pub fn motion(run: &PageRun) -> Option<Value> {
         let columns = (1..).map_while(|k| own.named(&format!("shape.{k}.{way}")));
         columns.map(|values| json!(values)).collect()
     };
+    let mut quantities = summary["quantities"]
+        .as_object()
+        .into_iter()
+        .flat_map(|all| all.values());
+    let places = quantities.find(|own| own["shown"]["shape"] == "place");
     Some(json!({
         "time": own.named("time"),
         "bearings": bearings,
@@ -74,7 +79,7 @@ pub fn motion(run: &PageRun) -> Option<Value> {
             { "title": "Speeds", "unit": "rad/s", "lines": speeds },
             { "title": "Energy ledger", "unit": "J", "lines": energies.collect::<Vec<_>>() },
         ],
-        "shape": { "place": summary["quantities"]["shape_positions"]["value"], "x": shaft("x"), "y": shaft("y") },
+        "shape": { "place": places.map(|own| &own["value"]), "x": shaft("x"), "y": shaft("y") },
     }))
 }
 
@@ -204,7 +209,7 @@ mod tests {
             "shape.1.y",
         ];
         let run = PageRun {
-            summary_json: r#"{"clearance_radius_m": 1e-4, "quantities": {"shape_positions": {"value": [0.5]}}}"#.to_string(),
+            summary_json: r#"{"clearance_radius_m": 1e-4, "quantities": {"places": {"value": [0.5], "shown": {"shape": "place"}}}}"#.to_string(),
             columns: names.iter().map(|name| column(name, &rising)).collect(),
             ..PageRun::default()
         };

@@ -1,12 +1,13 @@
 //! What each address of the studio gives.
 
 use crate::check::{check, of_problem};
-use crate::edit::{Edited, Made, Step};
+use crate::edit::{AddedHeader, Edited, Step};
 use crate::folder::MOST_BYTES;
 use crate::jobs::Task;
-use crate::server::{Asked, Reply};
+use crate::server::{Call, Reply};
 use crate::{Studio, edit, keys, runs};
 use auxbear::report::{directory, export, page};
+use auxbear::scenario::several::AUXILIARY_BEARING;
 use auxbear::{BuiltIn, Options, Scenario, bearings};
 use serde_json::{Value, json};
 use std::fs;
@@ -32,7 +33,6 @@ const NAMED: &str = include_str!("page/named.js");
 const LAYOUT: &str = ".auxbear-studio.json";
 
 const SCRIPT: &str = "text/javascript; charset=utf-8";
-const TEXT: &str = "text/plain; charset=utf-8";
 
 /// Values of an analysis that is shown while its file is edited: the closed loop needs no fine diagrams.
 const QUICK: [(&str, &str); 3] = [
@@ -44,7 +44,7 @@ const QUICK: [(&str, &str); 3] = [
 type Answer = Result<Reply, (u16, String)>;
 
 /// Answers a request that may ask.
-pub(crate) fn route(studio: &Studio, asked: &Asked) -> Reply {
+pub(crate) fn route(studio: &Studio, asked: &Call) -> Reply {
     let answered = match asked.changes {
         true => change(studio, asked),
         false => give(studio, asked),
@@ -56,7 +56,7 @@ fn wrong(why: impl Into<String>) -> (u16, String) {
     (400, why.into())
 }
 
-fn give(studio: &Studio, asked: &Asked) -> Answer {
+fn give(studio: &Studio, asked: &Call) -> Answer {
     let folder = &studio.folder;
     let needed = |name: &str| {
         asked
@@ -136,13 +136,6 @@ fn give(studio: &Studio, asked: &Asked) -> Answer {
             let name = format!("{}-{file}", run.rsplit('/').next().unwrap_or(run));
             Reply::download(&name, body)
         }
-        "/text" => {
-            let path = inside(studio, needed("run")?, needed("file")?)?;
-            Reply::own(
-                TEXT,
-                fs::read(path).map_err(|error| (404, error.to_string()))?,
-            )
-        }
         _ => return Err((404, "nothing has this address".to_string())),
     })
 }
@@ -155,7 +148,7 @@ fn inside(studio: &Studio, run: &str, file: &str) -> Result<std::path::PathBuf, 
         .map_err(|why| (404, why))
 }
 
-fn change(studio: &Studio, asked: &Asked) -> Answer {
+fn change(studio: &Studio, asked: &Call) -> Answer {
     let folder = &studio.folder;
     let (name, text) = (asked.text("name"), asked.text("text"));
     if text.len() as u64 > MOST_BYTES {
@@ -179,19 +172,11 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
         "/api/new" => Reply::json(&new(studio, asked)?),
         "/api/set" => {
             let steps = steps(asked)?;
-            let names: Vec<&str> = (steps.iter())
-                .filter_map(|step| match step {
-                    Step::Name(name) if name != auxbear::scenario::several::AUXILIARY_BEARING => {
-                        Some(name.as_str())
-                    }
-                    _ => None,
-                })
-                .collect();
-            let literal = keys::literal(asked.text("kind"), &names.join("."), asked.text("value"));
+            let literal = keys::literal(asked.text("kind"), &key_of(&steps), asked.text("value"));
             edited(text, edit::set(text, &steps, &literal))?
         }
         "/api/unset" => {
-            let made: Vec<Made> =
+            let made: Vec<AddedHeader> =
                 serde_json::from_value(asked.body["made"].clone()).unwrap_or_default();
             let rest = edit::unset(text, &steps(asked)?, &made);
             edited(text, rest.map(|text| Edited { text, made: None }))?
@@ -200,17 +185,7 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
             let keys: Vec<(String, String)> =
                 serde_json::from_value(asked.body["keys"].clone()).unwrap_or_default();
             let steps = steps(asked)?;
-            let names: Vec<&str> = steps
-                .iter()
-                .filter_map(|step| {
-                    if let Step::Name(name) = step {
-                        Some(name.as_str())
-                    } else {
-                        None
-                    }
-                })
-                .collect();
-            let of = names.join(".");
+            let of = key_of(&steps);
             let keys: Vec<(String, String)> = keys
                 .into_iter()
                 .map(|(name, value)| {
@@ -240,11 +215,6 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
                 .stop(asked.body["id"].as_u64().unwrap_or(0) as usize);
             Reply::json(&json!({}))
         }
-        "/api/report" => {
-            let run = folder.path(asked.text("run")).map_err(wrong)?;
-            directory::rewrite_report(&run).map_err(|problem| wrong(problem.to_string()))?;
-            Reply::json(&json!({}))
-        }
         "/api/layout" => {
             let kept = fs::write(folder.root().join(LAYOUT), asked.body.to_string());
             kept.map_err(|error| wrong(error.to_string()))?;
@@ -254,8 +224,15 @@ fn change(studio: &Studio, asked: &Asked) -> Answer {
     })
 }
 
-fn steps(asked: &Asked) -> Result<Vec<Step>, (u16, String)> {
+fn steps(asked: &Call) -> Result<Vec<Step>, (u16, String)> {
     serde_json::from_value(asked.body["path"].clone()).map_err(|error| wrong(error.to_string()))
+}
+
+/// The dotted path of the key that steps lead to, whichever of several bearings it is of.
+fn key_of(steps: &[Step]) -> String {
+    let names = steps.iter().filter_map(Step::name);
+    let names: Vec<&str> = names.filter(|name| *name != AUXILIARY_BEARING).collect();
+    names.join(".")
 }
 
 /// A text after a change; one that cannot be read has none yet.
@@ -268,7 +245,7 @@ fn edited(text: &str, found: Result<Edited, String>) -> Answer {
 }
 
 /// A starting file under a name that is free, with the scenario that a study names.
-fn new(studio: &Studio, asked: &Asked) -> Result<Value, (u16, String)> {
+fn new(studio: &Studio, asked: &Call) -> Result<Value, (u16, String)> {
     let kind = asked.text("kind");
     let text = auxbear::template(kind).ok_or_else(|| wrong("no such kind"))?;
     let stem = asked.text("name").trim().trim_end_matches(".toml");

@@ -4,14 +4,14 @@ use crate::folder::{Folder, changed, stamp};
 use crate::jobs::run_name;
 use auxbear::report::directory::{page_run, read};
 use auxbear::report::page;
-use auxbear::{BuiltIn, Scenario};
-use serde::de::{MapAccess, Visitor};
-use serde::{Deserialize, Deserializer};
+use auxbear::{BuiltIn, Scenario, StudyFile};
+use indexmap::IndexMap;
+use serde::Deserialize;
 use serde_json::{Map, Value, json};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::Path;
 use std::sync::{Mutex, PoisonError};
-use std::{fmt, fs, io};
+use std::{fs, io};
 
 /// Most inputs that a table has as columns.
 const MOST_INPUTS: usize = 12;
@@ -21,11 +21,11 @@ const MOST_INPUTS: usize = 12;
 pub struct Runs {
     read: Mutex<BTreeMap<String, (u128, Value)>>,
     /// Values that files give now, by name and last change.
-    files: Mutex<BTreeMap<String, (u128, Option<Given>)>>,
+    files: Mutex<BTreeMap<String, (u128, Option<InputTexts>)>>,
 }
 
 /// Paths with their values as written.
-type Given = BTreeMap<String, String>;
+type InputTexts = BTreeMap<String, String>;
 
 impl Runs {
     /// Every run and study of the folder, the last first, with the inputs in which they differ.
@@ -58,7 +58,10 @@ impl Runs {
             row["date"] = json!(changed(&summary));
             if let Some(file) = files.get(stem(&name)) {
                 row["file"] = json!(file);
-                row["differs"] = json!(self.differences(folder, file, &row));
+                row["differs"] = match row["study"] == true {
+                    true => json!(differences_of_study(&folder.root().join(file), &path)),
+                    false => json!(self.differences(folder, file, &row)),
+                };
             }
             rows.push(row);
         }
@@ -106,8 +109,37 @@ impl Runs {
     }
 }
 
+/// Which of its two files have changed since a study was computed; none where they cannot be read now.
+fn differences_of_study(file: &Path, directory: &Path) -> Option<Vec<[String; 3]>> {
+    let now = StudyFile::read(file).ok()?;
+    // members that were added are no other study, and the head is the version
+    let compared = |text: &str| -> Vec<String> {
+        let lines = text
+            .lines()
+            .filter(|line| !line.starts_with("added = ") && !line.starts_with('#'));
+        lines.map(str::to_string).collect()
+    };
+    let files = [
+        ("study.toml", now.toml()),
+        ("scenario.toml", now.scenario.resolved.toml()),
+    ];
+    let changed = files.into_iter().filter_map(|(name, now)| {
+        let then = compared(&fs::read_to_string(directory.join(name)).ok()?);
+        let now = compared(&now);
+        let at = then.iter().zip(&now).position(|(then, now)| then != now);
+        let at = at.or((then.len() != now.len()).then_some(then.len().min(now.len())))?;
+        let line = |lines: &[String]| lines.get(at).cloned().unwrap_or_default();
+        Some([
+            name.trim_end_matches(".toml").to_string(),
+            line(&then),
+            line(&now),
+        ])
+    });
+    Some(changed.collect())
+}
+
 /// What the file of a scenario gives now, as a run's summary says it.
-fn given(path: &Path) -> Option<Given> {
+fn given(path: &Path) -> Option<InputTexts> {
     let scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
     let nothing = auxbear::Outcome {
         system: scenario.system.name().word(),
@@ -120,7 +152,7 @@ fn given(path: &Path) -> Option<Given> {
 }
 
 /// Inputs that a summary names, but for those that change no result.
-fn inputs_of(summary: &Value) -> Given {
+fn inputs_of(summary: &Value) -> InputTexts {
     let inputs = summary["inputs"].as_array().into_iter().flatten();
     let pair = |input: &Value| {
         Some((
@@ -177,8 +209,8 @@ fn row_of(path: &Path, summary: &Path) -> io::Result<Value> {
     let text = fs::read_to_string(summary)?;
     let summary: Value = serde_json::from_str(&text)?;
     let study = path.join("study.toml").exists();
-    let quantities = serde_json::from_str::<Ordered>(&text)?.quantities.0;
-    let headline = |(name, quantity): &(String, Value)| {
+    let quantities = serde_json::from_str::<Ordered>(&text)?.quantities;
+    let headline = |(name, quantity): (&String, &Value)| {
         let words = quantity["shown"]["headline"].as_str()?;
         let short = name.rsplit('.').next().unwrap_or(name);
         Some(
@@ -214,30 +246,7 @@ fn row_of(path: &Path, summary: &Path) -> io::Result<Value> {
 /// Results of a summary in the order of the report.
 #[derive(Deserialize)]
 struct Ordered {
-    quantities: Entries,
-}
-
-/// Entries of an object in their order.
-struct Entries(Vec<(String, Value)>);
-
-impl<'de> Deserialize<'de> for Entries {
-    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Entries, D::Error> {
-        struct InOrder;
-        impl<'de> Visitor<'de> for InOrder {
-            type Value = Entries;
-            fn expecting(&self, out: &mut fmt::Formatter) -> fmt::Result {
-                out.write_str("an object")
-            }
-            fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Entries, A::Error> {
-                let mut entries = Vec::new();
-                while let Some(entry) = map.next_entry()? {
-                    entries.push(entry);
-                }
-                Ok(Entries(entries))
-            }
-        }
-        deserializer.deserialize_map(InOrder)
-    }
+    quantities: IndexMap<String, Value>,
 }
 
 /// Inputs in which runs of one system differ, the first so many.

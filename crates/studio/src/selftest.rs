@@ -11,6 +11,9 @@ use std::time::{Duration, Instant};
 /// Longest time of one of them, s.
 const PATIENCE: f64 = 300.0;
 
+/// Kind of its starting file, name, task, and the values that it gets.
+type Case<'a> = (&'a str, &'a str, &'a str, &'a [(&'a str, &'a str)]);
+
 /// Machine with a case, of one cheap level, and limits.
 const QUALIFICATION: &str = r#"format = "auxbear.study/1"
 scenario = "cases.toml"
@@ -73,7 +76,7 @@ fn each(studio: &Studio, say: &mut dyn FnMut(&str)) -> Result<(), String> {
         ("base.shock_duration", "5 ms"),
     ];
     let quick = [("analysis.speed_count", "11")];
-    let cases: [(&str, &str, &str, &[(&str, &str)]); 5] = [
+    let cases: [Case; 5] = [
         ("drop", "drop", "run", &short),
         ("machine", "cases", "run", &shock),
         ("rotor", "rotor", "run", &quick),
@@ -83,27 +86,27 @@ fn each(studio: &Studio, say: &mut dyn FnMut(&str)) -> Result<(), String> {
     for (kind, name, task, changes) in cases {
         let begin = Instant::now();
         let file = format!("{name}.toml");
-        let told = |why: String| format!("{name}: {why}");
+        let named = |why: String| format!("{name}: {why}");
         match kind {
             "" => drop(
                 client
                     .post("api/save", &json!({ "name": file, "text": QUALIFICATION }))
-                    .map_err(told)?,
+                    .map_err(named)?,
             ),
             _ => drop(
                 client
                     .post("api/new", &json!({ "kind": kind, "name": name }))
-                    .map_err(told)?,
+                    .map_err(named)?,
             ),
         }
         for (path, value) in changes {
-            client.change(&file, kind, path, value).map_err(told)?;
+            client.change(&file, kind, path, value).map_err(named)?;
         }
-        let done = client.run(&file, task).map_err(told)?;
+        let done = client.run(&file, task).map_err(named)?;
         let directory = done["directory"].as_str().unwrap_or_default();
         let (status, page) = client.get(&format!("page/run?run={directory}"));
         if status != 200 || !page.contains("</html>") {
-            return Err(told(format!("its page is not there: status {status}")));
+            return Err(named(format!("its page is not there: status {status}")));
         }
         say(&format!(
             "{task} {file}: {:.1} s, {}",
@@ -161,13 +164,13 @@ impl Client {
 
     /// Head and body of the answer to a request.
     pub fn exchange(&self, head: &str, body: &str) -> Result<(String, String), String> {
-        let told = |error: std::io::Error| error.to_string();
-        let mut stream = TcpStream::connect(self.host()).map_err(told)?;
+        let named = |error: std::io::Error| error.to_string();
+        let mut stream = TcpStream::connect(self.host()).map_err(named)?;
         stream
             .write_all(format!("{head}{body}").as_bytes())
-            .map_err(told)?;
+            .map_err(named)?;
         let mut answer = Vec::new();
-        stream.read_to_end(&mut answer).map_err(told)?;
+        stream.read_to_end(&mut answer).map_err(named)?;
         let answer = String::from_utf8_lossy(&answer).into_owned();
         let (head, body) = answer.split_once("\r\n\r\n").unwrap_or((&answer, ""));
         Ok((head.to_string(), body.to_string()))

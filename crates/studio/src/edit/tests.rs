@@ -66,7 +66,7 @@ fn parts_are_reached_by_their_place() {
         typed(&edited.text).unwrap()["bearing"][0]["mount"]["stiffness"]["="],
         "1"
     );
-    let made: Vec<Made> = edited.made.into_iter().collect();
+    let made: Vec<AddedHeader> = edited.made.into_iter().collect();
     assert_eq!(unset(&edited.text, &below, &made).unwrap(), text);
 }
 
@@ -83,6 +83,22 @@ fn what_no_field_can_change_is_refused() {
     }
     // what would not be TOML any more, likewise
     assert!(set("a = 1\n", &names("a"), "not a value").is_err());
+}
+
+#[test]
+fn a_mark_of_the_encoding_stays_in_front() {
+    let text = "\u{feff}a = 1\n[b]\nc = 2\n";
+    assert_eq!(
+        set(text, &names("b.c"), "3").unwrap().text,
+        text.replace('2', "3")
+    );
+    assert_eq!(
+        set(text, &names("a"), "3").unwrap().text,
+        text.replace('1', "3")
+    );
+    let added = set(text, &names("b.d"), "4").unwrap().text;
+    assert_eq!(added, format!("{text}d = 4\n"));
+    assert_eq!(unset(&added, &names("b.d"), &[]).unwrap(), text);
 }
 
 /// Pieces of files: with and without values, comments, indentation, dotted keys, the last line break, and both kinds of line breaks.
@@ -138,7 +154,7 @@ proptest! {
         prop_assume!(typed(&text).is_ok());
         let Ok(edited) = set(&text, &names(path), "\"1 m\"") else { return Ok(()) };
         prop_assert_ne!(&edited.text, &text);
-        let made: Vec<Made> = edited.made.into_iter().collect();
+        let made: Vec<AddedHeader> = edited.made.into_iter().collect();
         prop_assert_eq!(unset(&edited.text, &names(path), &made).unwrap(), text);
     }
 
@@ -172,7 +188,7 @@ fn every_key_of_every_starting_file_is_set_and_unset() {
             let literal = key.literal(key.example);
             let edited = set(&text, &names(key.path), &literal)
                 .unwrap_or_else(|why| panic!("{}: {why}", key.path));
-            let made: Vec<Made> = edited.made.into_iter().collect();
+            let made: Vec<AddedHeader> = edited.made.into_iter().collect();
             let back = unset(&edited.text, &names(key.path), &made).unwrap();
             assert_eq!(back, text, "{} in {}", key.path, kind.word());
         }

@@ -53,7 +53,7 @@ async function ask(path, body) {
   return found;
 }
 
-// Does what a person asked for, and says what went wrong with it.
+// Does what a person asked for, and names what was wrong with it.
 function attempt(act) {
   return async (...given) => {
     try {
@@ -65,15 +65,17 @@ function attempt(act) {
   };
 }
 
-// The address behind the #: a view and what it shows.
+// The address behind the #: a view and what it shows, ? a key of it.
 function address() {
-  const [view = "", ...rest] = decodeURI(location.hash.slice(2)).split("/");
-  const [name, key] = rest.join("/").split("?");
-  return { view, name, key };
+  const [path, key = ""] = location.hash.slice(2).split("?");
+  const [view, ...rest] = path.split("/").map(decodeURIComponent);
+  return { view, name: rest.join("/"), key: decodeURIComponent(key) };
 }
 
-function go(view, name = "", key = "") {
-  location.hash = `#/${view}${name ? `/${encodeURI(name)}` : ""}${key ? `?${key}` : ""}`;
+const hrefOf = (view, name, key = "") => `#/${view}/${name.split("/").map(encodeURIComponent).join("/")}${key ? `?${encodeURIComponent(key)}` : ""}`;
+
+function go(view, name, key) {
+  location.hash = hrefOf(view, name, key);
 }
 
 const dateText = (seconds) => new Date(1000 * seconds).toLocaleString(undefined, { dateStyle: "medium", timeStyle: "short" });

@@ -3,6 +3,7 @@
 // The file that is open.
 let open = null;
 
+const MATERIALS = ["steel", "stainless_steel", "titanium", "aluminium", "nickel_alloy"];
 const TASKS = { study: [["study", "Run study"]], qualify: [["qualify", "Run qualification"], ["study", "Run study only"]], machine: [["run", "Run"], ["rotor", "Analyse rotor"]], rotor: [["run", "Analyse rotor"]] };
 
 async function openFile(name) {
@@ -27,6 +28,8 @@ async function editorOf(name, text, hash) {
   let soon = 0;
   let later = 0;
   let wanted = null;
+  // whether fields show what stands in the text although they are typed in
+  let forced = false;
   const dirty = () => past.now !== saved.text;
 
   const editor = textEditor((now) => {
@@ -65,6 +68,7 @@ async function editorOf(name, text, hash) {
   }
 
   function restore(now) {
+    forced = true;
     editor.show(now);
     changed(true);
   }
@@ -99,9 +103,17 @@ async function editorOf(name, text, hash) {
       const offered = TASKS[kind] || [["run", "Run"]];
       tasks.replaceChildren(...(kind ? offered.map(([task, label], k) => button(label, attempt(() => run(task)), { class: k ? "" : "first", title: k ? "" : "Ctrl+Enter" })) : []));
     }
-    if (forms) forms.show(answer);
+    if (forms) forms.show({ ...answer, forced });
+    forced = false;
+    const known = byId("materials");
+    const named = typedAt(answer.typed, ["rotor", "material"]);
+    if (known && Array.isArray(named)) {
+      const list = [...MATERIALS, ...named.filter((one) => isLeaf(one.name)).map((one) => one.name["="])];
+      known.replaceChildren(...list.map((value) => el("option", { value })));
+    }
     editor.mark(answer.problem ? answer.problem.line : 0, "");
     shown(answer.problem);
+    drawing.parentNode.hidden = kind === "study" || kind === "qualify";
     if (!answer.problem) drawing.classList.toggle("none", !drawMachine(drawing, answer));
     drawing.classList.toggle("old", Boolean(answer.problem));
     const pending = waiting.splice(0);

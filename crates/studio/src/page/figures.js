@@ -12,10 +12,9 @@ function inStudio(holder, text, build) {
 window.auxbearFigures = {
   rotor: (holder, text) => inStudio(holder, text, (run, raw) => rotorPicture(run, [], raw.name ? raw.name.split("\n") : [])),
   closedLoop: (holder, text) => inStudio(holder, text, (run) => {
-    const unstable = quantityOf(run, "first_unstable_speed");
-    const state = isNumber(unstable.value) ? `A mode grows from ${engineeringText(unstable.value, "rad/s", 5)} on.` : "Stable over all speeds of the diagram.";
+    const grows = tableOf(run, "poles")("Re λ").some((value) => value > 0);
     return [
-      element("p", { class: isNumber(unstable.value) ? "grows" : "stable" }, state),
+      element("p", { class: grows ? "grows" : "stable" }, grows ? `Not stable at ${speedText(ratedSpeed(run))}: a mode grows.` : `Stable at ${speedText(ratedSpeed(run))}.`),
       figure("Sensitivity at speed", "Largest |S| of one axis with all others closed; dashed: zones.", sensitivityCurves(run, "rated")),
       figure("Open loops (Bode)", "One axis opened, all others closed.", bodeCurves(run, "rated")),
     ];

@@ -59,9 +59,9 @@ function field(path, key, edit) {
     input,
     flush,
     // value as typed (none where the text does not give it), what holds without it, its mark and where it comes from
-    show({ typed, held, mark: word, note: why }) {
+    show({ typed, held, mark: word, note: why, forced }) {
       const text = typed === undefined ? "" : typed;
-      if (document.activeElement !== input || choices) {
+      if (!waiting && (forced || document.activeElement !== input || choices)) {
         if (choices && text && !choices.includes(text)) input.append(el("option", { value: text }, text));
         input.value = text;
       }
@@ -86,11 +86,20 @@ function field(path, key, edit) {
   };
 }
 
+// The first line of what stands in a part of the text.
+function lineOf(tree) {
+  if (isLeaf(tree)) return tree.line;
+  return Object.values(tree || {}).reduce((least, value) => Math.min(least, typeof value === "object" ? lineOf(value) : Infinity), Infinity);
+}
+
+// Entries of a table as the text has them.
+const inOrder = (tree) => Object.entries(tree || {}).sort(([, one], [, other]) => lineOf(one) - lineOf(other));
+
 // Fields of all leaves of a table, however deep: [[path, typed]].
 function leavesOf(tree, path = []) {
   if (isLeaf(tree)) return [[path, tree["="]]];
   if (Array.isArray(tree) || tree === null || typeof tree !== "object") return [];
-  return Object.entries(tree).flatMap(([name, value]) => leavesOf(value, [...path, name]));
+  return inOrder(tree).flatMap(([name, value]) => leavesOf(value, [...path, name]));
 }
 
 // Keys whose values are picked from lists: bearings of the catalogue, materials known by name.
@@ -155,6 +164,7 @@ function formsOf(table, act) {
   // Rows of a list of tables: the keys that each gives, those that it may have, and the way to take it out.
   const ofList = (path, list, keys, about) => {
     const several = Array.isArray(list);
+    // a table of its own beside a list of its kind, such as a rotor with a single disk
     const cards = (several ? list : [list]).map((one, k) => {
       const at = several ? [...path, k] : path;
       const given = leavesOf(one);
@@ -170,15 +180,15 @@ function formsOf(table, act) {
         const key = keys.find((known) => known.inner === event.target.value);
         if (key) act.edit([...at, ...key.inner.split(".")], key.example || "");
       } }, el("option", { value: "" }, "+ key"), left.map((key) => el("option", { value: key.inner, title: key.doc }, words(key.inner))));
-      const title = isLeaf(one.name) ? one.name["="] : k + 1;
+      const title = isLeaf(one.name) ? one.name["="] : several ? k + 1 : "";
       return el("div", { class: "card" }, el("div", { class: "card-head" }, el("b", {}, title), left.length ? more : null, several ? button("×", () => act.remove(at), { class: "remove", "aria-label": `Remove ${pathText(path)} ${title}` }) : null), rows);
     });
     const start = () => act.add(path, about.start || keys.filter((key) => key.required).map((key) => [key.inner, key.example]));
-    return el("details", { class: "section", open: state.layout[`open:${pathText(path)}`] ?? cards.length > 0, ontoggle: (event) => keepLayout({ [`open:${pathText(path)}`]: event.target.open }) }, el("summary", {}, el("b", {}, `${pathText(path)} (${cards.length})`), el("span", { class: "about" }, about.doc || "")), el("div", { class: "cards" }, cards), button(`+ ${words(path[path.length - 1])}`, start, { class: "add" }));
+    return el("details", { class: "section", open: state.layout[`open:${pathText(path)}`] ?? cards.length > 0, ontoggle: (event) => keepLayout({ [`open:${pathText(path)}`]: event.target.open }) }, el("summary", {}, el("b", {}, several ? `${pathText(path)} (${cards.length})` : pathText(path)), el("span", { class: "about" }, about.doc || "")), el("div", { class: "cards" }, cards), several ? button(`+ ${words(path[path.length - 1])}`, start, { class: "add" }) : null);
   };
 
   // Everything of a text that no table of keys names: by its schema.
-  const byScheme = (tree, path) => Object.entries(tree || {}).map(([name, value]) => {
+  const byScheme = (tree, path) => inOrder(tree).map(([name, value]) => {
     const at = [...path, name];
     const scheme = schemaAt(table.schema, at);
     if (isLeaf(value)) {
@@ -210,7 +220,7 @@ function formsOf(table, act) {
       ...rest.map((word) => {
         const items = (schemaAt(table.schema, [word, 0]) || {}).properties || {};
         const keys = Object.entries(items).map(([inner, one]) => ({ inner, ...keyOfSchema(one, inner) }));
-        const start = word === "limit" ? [["quantity", "peak_contact_force"], ["most", "5 kN"]] : null;
+        const start = word === "limit" ? table.limit : null;
         return ofList([word], tree[word] || [], keys, { doc: ((table.schema.properties || {})[word] || {}).description, start });
       }),
     ];
@@ -222,13 +232,13 @@ function formsOf(table, act) {
     node: el("div", { class: "form-side" }, el("div", { class: "form-tools" }, filter), node),
     filter,
     // Fields after a check that could read the text; those of a text that cannot be read keep what they have.
-    show({ typed: tree, values, problem }) {
+    show({ typed: tree, values, problem, forced }) {
       // beside a mistake the values from before it
       lastValues = values || lastValues;
       const held = new Map(lastValues.filter((value) => !value.bearing).map((value) => [value.path, value]));
       for (const value of lastValues) if (value.bearing && !held.has(value.path)) held.set(value.path, value);
       const active = document.activeElement && document.activeElement.closest(".field");
-      // rows are put in anew only where keys came or went
+      // rows are put in anew only where keys came or were taken out
       const now = JSON.stringify(tree, (name, value) => (name === "=" || name === "line" ? 0 : value));
       if (now !== shape) {
         shape = now;
@@ -248,9 +258,9 @@ function formsOf(table, act) {
         const known = held.get(name);
         if (lists.contains(row.node)) {
           const inList = typedAt(tree, name.split("."));
-          row.show({ typed: isLeaf(inList) ? inList["="] : undefined, note: leaf && (leaf.source || leaf.assumed), mark: leaf && leaf.assumed ? "assumed" : "" });
+          row.show({ typed: isLeaf(inList) ? inList["="] : undefined, note: leaf && (leaf.source || leaf.assumed), mark: leaf && leaf.assumed ? "assumed" : "", forced });
         } else {
-          row.show({ typed: leaf && !leaf.from ? leaf["="] : undefined, held: known ? known.text : leaf && leaf["="], mark: known && known.text ? known.mark : "", note: known ? known.note : "" });
+          row.show({ typed: leaf && !leaf.from ? leaf["="] : undefined, held: known ? known.text : leaf && leaf["="], mark: known && known.text ? known.mark : "", note: known ? known.note : "", forced });
           // a key without a meaning now stands aside
           if (values) row.node.classList.toggle("idle", !known && leaf === undefined);
         }

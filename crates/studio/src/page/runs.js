@@ -46,8 +46,8 @@ function jobView(id) {
           ends(job) ? null : bar(job.share),
           el("span", { class: "grow" }),
           ["waiting", "running"].includes(job.state) ? button("Stop", attempt(() => stop(id)), { class: "stop" }) : null,
-          el("a", { class: "button", href: `#/edit/${encodeURI(job.file)}` }, "Edit"),
-          ends(job) && job.directory ? el("a", { class: "button first", href: `#/run/${encodeURI(job.directory)}` }, "Results") : null,
+          el("a", { class: "button", href: hrefOf("edit", job.file) }, "Edit"),
+          ends(job) && job.directory ? el("a", { class: "button first", href: hrefOf("run", job.directory) }, "Results") : null,
         ].filter(Boolean));
         line.textContent = [job.words, ends(job) || job.seconds ? secondsText(job.seconds) : "", job.state === "stopping" ? "stops at the next step and keeps what was computed" : ""].filter(Boolean).join(" · ");
         line.classList.toggle("fault", job.state === "failed");
@@ -87,7 +87,7 @@ async function runsView() {
   const limits = (row) => (row.limits && row.limits.pass + row.limits.fail ? el("span", { class: row.limits.fail ? "bad" : "good" }, row.limits.fail ? `${row.limits.fail} of ${row.limits.pass + row.limits.fail} not held` : `${row.limits.pass} held`) : "");
   const cells = (row) => [
     el("td", {}, choose(row)),
-    el("td", { class: "name" }, el("a", { href: `#/run/${encodeURI(row.directory)}` }, row.directory.replace(/^runs\//, "")), el("small", {}, row.broken || row.title || "")),
+    el("td", { class: "name" }, el("a", { href: hrefOf("run", row.directory) }, row.directory.replace(/^runs\//, "")), el("small", {}, row.broken || row.title || "")),
     el("td", {}, words(row.system || "")),
     el("td", {}, row.complete === false ? el("span", { class: "stale", title: row.stop }, "not complete") : stale(row)),
     ...inputs.map((path) => el("td", {}, (row.inputs || {})[path] || "")),
@@ -127,7 +127,7 @@ async function runView(directory) {
   const differs = (row.differs || []).map(([path, then, now]) => `${path}: ${then} → ${now}`).join("\n");
   return el("div", { class: "run-view" },
     el("div", { class: "toolbar" }, el("h1", {}, directory), differs ? el("span", { class: "status stale", title: differs }, "stale: the file has changed") : null, tabs, el("span", { class: "grow" }),
-      row.file ? el("a", { class: "button", href: `#/edit/${encodeURI(row.file)}` }, "Edit input") : null,
+      row.file ? el("a", { class: "button", href: hrefOf("edit", row.file) }, "Edit input") : null,
       row.file ? button("Run again", attempt(() => again(row)), { title: "with the file as it is now" }) : null,
       file("report.html", "Page"), row.document ? file("document.html", "Document") : null, row.study ? null : file("run.xlsx", "Workbook")),
     row.file ? el("p", { class: "hint" }, "Click the name of an input in the page to change it and run again.") : null,

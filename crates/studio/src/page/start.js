@@ -30,7 +30,7 @@ function files() {
     }, { class: making ? "" : "first", id: "new" })),
     making || none ? newFile() : "",
     none ? el("p", { class: "absent" }, "This folder has no input file yet: choose what to begin with.") : "",
-    el("ul", {}, state.files.map((file) => el("li", { class: address().view === "edit" && file.name === name ? "on" : "" }, el("a", { href: `#/edit/${encodeURI(file.name)}`, title: file.title }, file.name.replace(/\.toml$/, "")), el("small", {}, words(file.kind || "?"))))),
+    el("ul", {}, state.files.map((file) => el("li", { class: address().view === "edit" && file.name === name ? "on" : "" }, el("a", { href: hrefOf("edit", file.name), title: file.title }, file.name.replace(/\.toml$/, "")), el("small", {}, words(file.kind || "?"))))),
   );
 }
 
@@ -39,7 +39,7 @@ function head() {
     el("a", { class: "brand", href: "#/" }, "auxbear studio"),
     el("a", { href: "#/runs", class: address().view === "runs" ? "on" : "" }, "Runs"),
     el("span", { class: "grow" }),
-    el("span", { class: "folder", title: state.folder }, state.folder),
+    el("span", { class: "folder", title: state.folder }, state.folder.split(/[\\/]/).filter(Boolean).pop() || state.folder),
   );
 }
 
@@ -92,7 +92,7 @@ const showView = attempt(async () => {
 const bearingNames = attempt(async () => {
   const list = await ask("/api/bearings");
   const line = (bearing) => `${FIGURES.text(bearing.bore, "m")} × ${FIGURES.text(bearing.outside, "m")}, ${bearing.balls}, ${bearing.type}`;
-  document.body.append(el("datalist", { id: "bearings" }, list.map((bearing) => el("option", { value: bearing.name }, line(bearing)))), el("datalist", { id: "materials" }, ["steel", "stainless_steel", "titanium", "aluminium", "nickel_alloy"].map((name) => el("option", { value: name }))));
+  document.body.append(el("datalist", { id: "bearings" }, list.map((bearing) => el("option", { value: bearing.name }, line(bearing)))), el("datalist", { id: "materials" }, MATERIALS.map((value) => el("option", { value }))));
 });
 
 document.addEventListener("keydown", (event) => {
