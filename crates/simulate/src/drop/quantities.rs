@@ -323,7 +323,7 @@ results! {
         };
     }
     fn energies(setup: &Setup, run: &Context) {
-        "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
+        "rotor_final_speed": number "rad/s", SPEED, "speed of the rotor at the end" in document "final speed" => run.finished.ending.state[run.setup.machine.layout().rotor.spin()];
         "dissipated_energy": number "J" headline, ENERGY, "heat of all losses" => run.heat();
         "dissipated_energy_of_all_bearings": number "J", ALL_BEARINGS, "heat of all losses in all planes" => run.planes() * run.heat();
         "work_of_warm_rings": number "J", RINGS, "work of rings that close on loaded balls" in sources "work of warm rings" when Following::of(setup.drop()).is_some() => {

@@ -155,6 +155,49 @@ impl Document<'_> {
         })
     }
 
+    /// What follows the end of the runs, where the rotor still turns then.
+    pub(super) fn ends_turning(&self) -> String {
+        let spun = self
+            .results_of("final speed")
+            .flat_map(|own| self.values_of(own));
+        let fastest = spun.map(f64::abs).fold(0.0, f64::max);
+        let coasts = (self.study.file.scenario.drop()).is_some_and(|own| own.coast_down.is_some());
+        if fastest <= 0.0 || coasts {
+            return String::new();
+        }
+        let critical = self.critical_below(fastest);
+        let passed = match critical.is_empty() {
+            true => String::new(),
+            false => format!(
+                " It would pass {} on its auxiliary bearings.",
+                critical.join(", ")
+            ),
+        };
+        paragraph(&format!(
+            "<b class=\"open\">The coast-down is in none of these runs</b>: they end with the rotor at up to {}. Whirl, heat, wear and life until the standstill are not shown, whatever a sum so far holds.{passed}",
+            cell(Some(fastest), "rad/s")
+        ))
+    }
+
+    /// Cases that no requirement judges.
+    pub(super) fn without_limit(&self) -> String {
+        let limits = &self.study.file.limits;
+        if limits.iter().any(|limit| limit.case.is_none()) {
+            return String::new();
+        }
+        let judged = |case: &String| limits.iter().any(|limit| limit.case.as_ref() == Some(case));
+        let mut cases = self.cases();
+        let all = cases.len();
+        cases.retain(|case| !judged(case));
+        match cases.len() {
+            0 => String::new(),
+            count => paragraph(&format!(
+                "<b class=\"open\">No requirement judges {count} of {all} cases: {}.</b>",
+                plain(&cases.join(", "))
+            )),
+        }
+    }
+
     /// Critical speeds of the rotor on its auxiliary bearings below a speed, rad/s, in words.
     pub(super) fn critical_below(&self, speed: f64) -> Vec<String> {
         let quantities = self
