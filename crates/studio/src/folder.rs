@@ -47,6 +47,14 @@ pub struct InputFile {
     pub changed: u64,
 }
 
+fn own_in(root: &Path, name: &str) -> std::result::Result<PathBuf, String> {
+    let path = root.join(name);
+    match path.symlink_metadata() {
+        Ok(about) if about.is_symlink() => Err(format!("a link by the name of {name}")),
+        _ => Ok(path),
+    }
+}
+
 impl Folder {
     /// Takes a folder, which is made where there is none.
     ///
@@ -63,7 +71,7 @@ impl Folder {
         let cannot = |error: std::io::Error| refused(error.to_string(), Code::OutputPlace);
         fs::create_dir_all(path).map_err(cannot)?;
         let root = fs::canonicalize(path).map_err(cannot)?;
-        let place = root.join(LOCK);
+        let place = own_in(&root, LOCK).map_err(|found| refused(found, Code::OutputPlace))?;
         let lock = (File::options()
             .create(true)
             .truncate(false)
@@ -96,6 +104,14 @@ impl Folder {
     /// The folder itself.
     pub fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// The path of what the studio keeps at the top of the folder: a link is refused, which may lead out of it.
+    ///
+    /// # Errors
+    /// A link.
+    pub fn own(&self, name: &str) -> std::result::Result<PathBuf, String> {
+        own_in(&self.root, name)
     }
 
     /// The path of a name below the folder. What leads out of it, also by a link, is refused.
@@ -326,6 +342,16 @@ mod tests {
                 assert!(folder.path(name).is_err(), "{name}");
             }
             assert!(folder.files().is_empty());
+            // nor does what the studio keeps itself
+            let kept = place.path().join("kept.txt");
+            fs::write(&kept, "mine").unwrap();
+            std::os::unix::fs::symlink(&kept, folder.root().join("layout")).unwrap();
+            assert!(folder.own("layout").is_err() && folder.own("other").is_ok());
+            let other = place.path().join("other");
+            fs::create_dir(&other).unwrap();
+            std::os::unix::fs::symlink(&kept, other.join(LOCK)).unwrap();
+            assert!(Folder::open(&other).is_err());
+            assert_eq!(fs::read_to_string(&kept).unwrap(), "mine");
         }
     }
 

@@ -6,6 +6,7 @@ use crate::folder::MOST_BYTES;
 use crate::jobs::Task;
 use crate::server::{Call, Reply};
 use crate::{Studio, edit, keys, runs};
+use auxbear::report::directory::RUNS;
 use auxbear::report::{directory, export, page};
 use auxbear::scenario::several::AUXILIARY_BEARING;
 use auxbear::{BuiltIn, Options, Scenario, bearings};
@@ -101,7 +102,9 @@ fn give(studio: &Studio, asked: &Call) -> Answer {
         "/api/runs" => Reply::json(&studio.runs.table(folder)),
         "/api/bearings" => Reply::json(&catalogue()),
         "/api/layout" => {
-            let text = fs::read_to_string(folder.root().join(LAYOUT)).unwrap_or_default();
+            let text = folder.own(LAYOUT).ok();
+            let text = text.and_then(|path| fs::read_to_string(path).ok());
+            let text = text.unwrap_or_default();
             Reply::json(&serde_json::from_str(&text).unwrap_or_else(|_| json!({})))
         }
         "/api/motion" => {
@@ -207,6 +210,7 @@ fn change(studio: &Studio, asked: &Call) -> Answer {
             let task: Task = serde_json::from_value(asked.body["task"].clone())
                 .map_err(|error| wrong(error.to_string()))?;
             let (text, _) = folder.read(name).map_err(wrong)?;
+            folder.own(RUNS).map_err(wrong)?;
             Reply::json(&json!({ "id": studio.jobs.add(name, task, text) }))
         }
         "/api/stop" => {
@@ -216,7 +220,8 @@ fn change(studio: &Studio, asked: &Call) -> Answer {
             Reply::json(&json!({}))
         }
         "/api/layout" => {
-            let kept = fs::write(folder.root().join(LAYOUT), asked.body.to_string());
+            let place = folder.own(LAYOUT).map_err(wrong)?;
+            let kept = fs::write(place, asked.body.to_string());
             kept.map_err(|error| wrong(error.to_string()))?;
             Reply::json(&json!({}))
         }

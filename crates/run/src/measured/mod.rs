@@ -267,26 +267,40 @@ impl Compared {
         Some(self.differences().map(|own| own / deviation).collect())
     }
 
-    /// The longest stretch of neighbouring samples of one value over which the prediction moves by more than noise and a share of its range:
-    /// how many, the first row, and by how much the prediction moves.
+    /// The longest stretch of neighbouring samples of one value, or at the end of the channel's range but for noise, over which the prediction
+    /// moves by more than noise and a share of its range, and beyond that end: how many, the first row, and by how much the prediction moves.
     fn held(&self) -> Option<(usize, usize, f64)> {
-        let least = (ALONE * self.deviation().unwrap_or(0.0)).max(MOVES * self.range());
-        let mut row = 0;
-        let stretches = self.measured.chunk_by(|one, next| one == next).map(|own| {
-            let predicted = &self.predicted[row..row + own.len()];
-            row += own.len();
-            let low = predicted.iter().copied().fold(f64::INFINITY, f64::min);
-            let high = predicted.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-            (own.len(), row - own.len(), high - low)
-        });
-        let held = stretches.filter(|(samples, _, moves)| *samples >= HELD && *moves > least);
-        held.max_by_key(|(samples, ..)| *samples)
+        let noise = ALONE * self.deviation().unwrap_or(0.0);
+        let least = noise.max(MOVES * self.range());
+        let (lowest, highest) = ends(&self.measured);
+        let mut longest: Option<(usize, usize, f64)> = None;
+        for within in [0.0, noise] {
+            let mut first = 0;
+            while first < self.measured.len() {
+                let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                let near = self.measured[first..].iter().take_while(|own| {
+                    (low, high) = (low.min(**own), high.max(**own));
+                    high - low <= within
+                });
+                let count = near.count();
+                let rows = first..first + count;
+                let (own, predicted) = (&self.measured[rows.clone()], ends(&self.predicted[rows]));
+                let beyond = own.contains(&highest) && predicted.1 > highest + noise
+                    || own.contains(&lowest) && predicted.0 < lowest - noise;
+                let moves = predicted.1 - predicted.0;
+                let is_held = count >= HELD && moves > least && (within == 0.0 || beyond);
+                if is_held && longest.is_none_or(|(samples, ..)| count > samples) {
+                    longest = Some((count, first, moves));
+                }
+                first += count.max(1);
+            }
+        }
+        longest
     }
 
     /// Range of the measured values over that of the predicted ones.
     fn ranges(&self) -> f64 {
-        let low = self.measured.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = (self.measured.iter().copied()).fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = ends(&self.measured);
         (high - low) / self.range()
     }
 
@@ -323,8 +337,7 @@ impl Compared {
 
     /// Range of the predicted curve.
     fn range(&self) -> f64 {
-        let low = self.predicted.iter().copied().fold(f64::INFINITY, f64::min);
-        let high = (self.predicted.iter().copied()).fold(f64::NEG_INFINITY, f64::max);
+        let (low, high) = ends(&self.predicted);
         high - low
     }
 
@@ -344,6 +357,12 @@ impl Compared {
         let share = within as f64 / residuals.len() as f64;
         (share.is_finite().then_some(share)).ok_or_else(|| NOTHING_COMMON.to_string())
     }
+}
+
+/// Least and largest value.
+fn ends(values: &[f64]) -> (f64, f64) {
+    let empty = (f64::INFINITY, f64::NEG_INFINITY);
+    (values.iter()).fold(empty, |(low, high), own| (low.min(*own), high.max(*own)))
 }
 
 const NOTHING_COMMON: &str = "file and run have no instant in common";
