@@ -235,7 +235,7 @@ impl Handle {
     }
 }
 
-/// Does something with an instance: what went wrong is said, and a panic ends here.
+/// Does something with an instance: what failed is said, and a panic ends here.
 pub(crate) unsafe fn with<S: Into<Status>>(
     handle: *mut c_void,
     act: impl FnOnce(&mut Handle) -> Result<S, Fault>,
@@ -267,7 +267,7 @@ pub(crate) unsafe fn free<T>(pointer: *mut c_void) {
     }
 }
 
-/// Functions of the standard whose first argument is an instance: each does something with it, and says what went wrong.
+/// Functions of the standard whose first argument is an instance: each does something with it, and says what failed.
 macro_rules! functions {
     ($(fn $name:ident($own:pat $(, $argument:ident: $of:ty)*) $body:block)*) => {$(
         #[unsafe(no_mangle)]

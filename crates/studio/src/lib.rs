@@ -66,7 +66,6 @@ impl Studio {
     /// # Errors
     /// A folder that cannot be used, one that another studio serves, a port that another program has.
     pub fn open(settings: Settings) -> Result<Studio, Box<Problem>> {
-        let folder = Arc::new(Folder::open(settings.folder)?);
         let port = settings.port.unwrap_or(0);
         let place = format!("127.0.0.1:{port}");
         let busy = |error: &dyn std::fmt::Display| {
@@ -77,6 +76,8 @@ impl Studio {
         let listener =
             TcpListener::bind((Ipv4Addr::LOCALHOST, port)).map_err(|error| busy(&error))?;
         let port = listener.local_addr().map_err(|error| busy(&error))?.port();
+        // a port that is taken leaves no folder behind
+        let folder = Arc::new(Folder::open(settings.folder)?);
         let server =
             tiny_http::Server::from_listener(listener, None).map_err(|error| busy(&error))?;
         let mut secret = [0; 24];

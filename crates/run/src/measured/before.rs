@@ -141,7 +141,7 @@ impl Curve {
 }
 
 /// Coefficients of values with their uncertainty, and the noise that is left.
-fn solved<const N: usize>(
+pub(super) fn solved<const N: usize>(
     rows: Vec<[f64; N]>,
     values: &[f64],
 ) -> Option<([Uncertain; N], Option<Noise>)> {

@@ -200,7 +200,7 @@ fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 
             peak.value,
             peak.deviation.hypot(base.deviation),
         )),
-        Some(_) => no("a gap may hide the largest force"),
+        Some(_) => no("the largest force need not be"),
     };
     let Some(begin) = samples.jump(level, 1.0, first) else {
         let none = || no("the force does not rise above the threshold");

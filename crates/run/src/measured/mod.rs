@@ -304,6 +304,18 @@ impl Compared {
         (high - low) / self.range()
     }
 
+    /// Slope and offset of the straight line through the measured over the predicted values, and the share of the difference that it leaves.
+    fn line(&self) -> Option<[f64; 3]> {
+        let of = Some(self.range()).filter(|range| *range > 0.0)?;
+        let rows = self.predicted.iter().map(|own| [1.0, own / of]);
+        let ([offset, slope], _) = before::solved(rows.collect(), &self.measured)?;
+        let (slope, offset) = (slope.value / of, offset.value);
+        let both = self.measured.iter().zip(&self.predicted);
+        let beside = both.map(|(own, predicted)| own - offset - slope * predicted);
+        let left = root_mean_square(beside, NOTHING_COMMON).ok()?;
+        Some([slope, offset, left / self.rms().ok()?])
+    }
+
     /// Rows of the samples that stand alone, and by how much: beside the cubic through two neighbours on each side by more than noise.
     fn alone(&self, values: &[f64]) -> Vec<(usize, f64)> {
         let Some(deviation) = self.deviation() else {

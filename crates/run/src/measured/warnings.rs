@@ -14,6 +14,9 @@ const FARTHER: f64 = 3.0;
 const MOVES: f64 = 8.0;
 /// A range of measured values is another one from this ratio on.
 const SIZE: f64 = 4.0;
+/// A straight line explains a channel that differs from its prediction by this share of its range, where it leaves so much of the difference.
+const DIFFERS: f64 = 0.02;
+const LEAVES: f64 = 0.5;
 /// Rows are coarser than the file from this ratio of intervals on.
 const COARSER: f64 = 1.5;
 
@@ -29,6 +32,7 @@ problem::warnings! {
         Alone { part: text, count: "", share: "1", at: "s" } "AB2347" Uncertain ("Channel of {part}: {count:.0} samples ({:.2} %) stand alone by more than 8 deviations of its noise, the first at {at:.4} s, and the prediction has no such ones: faults of the record, or motion that its interval does not resolve. They count in misfit, features and estimates as all others do.", 100.0 * share);
         Held { part: text, count: "", from: "s", to: "s", moves: "of the column" } "AB2349" Invalid ("Channel of {part} keeps its value from {from:.4} s to {to:.4} s ({count:.0} samples), where the prediction moves by {moves:.2e}: dead, stuck or at the end of its range. What is compared there is not the machine.");
         OtherSize { part: text, ratio: "1" } "AB2350" Invalid ("Channel of {part} covers {ratio:.2e} times the range of the prediction: its unit, its scale or the channel is another one, or the machine does not do what this run predicts.");
+        Rescaled { part: text, slope: "1", offset: "of the column", left: "1" } "AB2351" Uncertain ("Channel of {part} is nearest to {slope:.3} times the prediction and {offset:.2e} beside it; that leaves {:.0} % of the difference. Its scale or its zero is another one, or an input of the run acts alike: misfit, features and estimates take it as it is.", 100.0 * left);
         Backward { part: text } "AB2348" Invalid ("The orbit of {part} before the release turns against the rotor: x and y exchanged, or one of them of the wrong sign (scale = -1). Only between two critical speeds of unequal supports does unbalance make such an orbit. What is compared here is a mirrored motion.");
     }
 }
@@ -36,7 +40,7 @@ problem::warnings! {
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
     use MeasuredWarning::{
         Alone, Backward, Coarse, Gaps, Held, OtherNoise, OtherSize, PartOfRun, PhaseDiffers,
-        PhaseUnknown,
+        PhaseUnknown, Rescaled,
     };
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
@@ -95,6 +99,17 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         if moves && ratio.is_finite() && !(1.0 / SIZE..SIZE).contains(&ratio) {
             let part = part();
             list.push(OtherSize { part, ratio });
+        } else if let (Some([slope, offset, left]), Ok(differs)) = (own.line(), own.relative())
+            && left < LEAVES
+            && differs > DIFFERS
+        {
+            let part = part();
+            list.push(Rescaled {
+                part,
+                slope,
+                offset,
+                left,
+            });
         }
         let [alone, expected] = [&own.measured, &own.predicted].map(|values| own.alone(values));
         let farthest = |of: &[(usize, f64)]| of.iter().fold(0.0, |most: f64, own| most.max(own.1));

@@ -262,7 +262,7 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
         .unwrap()
         .run(&Options::unwatched(&never));
     let (codes, whole) = damaged(&scenario, &run, |_| {});
-    let wrong = ["AB2344", "AB2347", "AB2348", "AB2349", "AB2350"];
+    let wrong = ["AB2344", "AB2347", "AB2348", "AB2349", "AB2350", "AB2351"];
     assert!(codes.iter().all(|code| !wrong.contains(code)), "{codes:?}");
 
     // every hundredth sample of one channel is off by 20 deviations
@@ -336,6 +336,19 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
     );
     let (codes, _) = damaged(&scenario, &run, small);
     assert!(codes.contains(&"AB2350"), "{codes:?}");
+    // twice the scale, or a zero that is off by a tenth of the clearance
+    for (scale, offset) in [(2.0, 0.0), (1.0, 25e-6)] {
+        let (codes, _) = damaged(&scenario, &run, |curve| {
+            if curve.name == "rotor.y" {
+                curve
+                    .values
+                    .iter_mut()
+                    .for_each(|own| *own = scale * *own + offset);
+            }
+        });
+        let known: Vec<_> = codes.iter().filter(|code| wrong.contains(code)).collect();
+        assert_eq!(known, [&"AB2351"], "{scale} {offset}");
+    }
 
     // a gap over the first impact: features before it stay, those after it are not given
     let contact = whole["measured.bearing.contact.force.first_contact.measured"];

@@ -142,7 +142,7 @@ impl Driven {
         let (scenario, built) = (one.scenario, &one.built);
         if built.drop.coast_down.is_some() {
             let found = "\"standstill\"";
-            let needed = "\"duration\" is needed of a machine that is driven from outside: it stops where it is told to, at run.duration \
+            let needed = "\"duration\" is needed of a machine that is driven from outside: it stops where its caller stops it, at run.duration \
                           at the latest";
             return Err(problem_at(Code::Conflict, "run.until", found, needed));
         }

@@ -2,12 +2,13 @@
 
 use crate::drop::context::{Context, Setup};
 use crate::drop::magnets::value_of;
+use crate::drop::quantities::BOUNCE;
 use crate::drop::warning_table::ShaftWarning;
 use crate::drop::{Drop, Shaft};
 use crate::rotor::LevitationModel;
 use levitation::ClosedLoop;
 use levitation::response::Loaded;
-use model::system::machine::record::Levitated;
+use model::system::machine::record::{BearingRecord, Levitated};
 use outcome::Warning;
 use outcome::list::{List, origins, results};
 use scenario::{Event, Happens, MagnetEvent, Relevitation, When};
@@ -298,6 +299,36 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
         list.push(ShaftWarning::NoLossOfPower.into());
     }
     list
+}
+
+/// What happens to a rotor that touches nothing and has power, so shortly before the end that its contacts would come after it.
+pub(super) fn cut_off(context: &Context) -> Vec<Warning> {
+    let (record, end) = (&context.finished.record, context.end);
+    let touches = |own: &BearingRecord| {
+        let faces = own.spatial.as_deref();
+        !own.contacts.is_empty() || faces.is_some_and(|own| own.last_axial_contact.is_some())
+    };
+    let held = record.lost.is_none() && !record.bearings.iter().any(touches);
+    let Some(given) = context.setup.drop().shaft.as_deref().filter(|_| held) else {
+        return Vec::new();
+    };
+    let each = events(given).filter(|event| !event.relevitates());
+    let times = each.filter_map(|event| Some((event.name.as_str(), time_of(event.when, context)?)));
+    let bases = context.setup.machine.constants.base.iter();
+    let shocks = bases.flat_map(|base| &base.shocks);
+    let shocks = shocks.map(|own| ("the shock", own.start + own.duration));
+    let soon = times
+        .chain(shocks)
+        .filter(|(_, time)| (*time..time + BOUNCE).contains(&end));
+    let cut = |(name, time): (&str, f64)| {
+        let what = format!(
+            "what {name} does to the rotor, {:.0} ms at least,",
+            1e3 * BOUNCE
+        );
+        let until = time + BOUNCE;
+        ShaftWarning::CutOff { what, until, end }.into()
+    };
+    soon.map(cut).collect()
 }
 
 /// A rotor that was not held when it was levitated again, each time, graded by how long.

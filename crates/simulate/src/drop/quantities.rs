@@ -28,7 +28,7 @@ const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
 const CONTACT: &str = "Hunt and Crossley 1975, crates/model/src/contact.rs";
 /// A bounce through a clearance lasts no longer, s.
-const BOUNCE: f64 = 0.05;
+pub(super) const BOUNCE: f64 = 0.05;
 const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 

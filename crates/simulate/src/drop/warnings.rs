@@ -55,6 +55,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     list.extend(each(&|k| graded(magnets::touched(context, k))));
     list.extend(graded(events::not_held(context)));
     list.extend(events::never(context));
+    list.extend(events::cut_off(context));
     list.extend(base::cut_off(
         &context.setup.machine.constants,
         context.finished.ending.time,
