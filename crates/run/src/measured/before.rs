@@ -182,7 +182,7 @@ fn synchronous(
 }
 
 /// White noise of values that are smooth but for it.
-fn white(values: &[f64]) -> Noise {
+pub(super) fn white(values: &[f64]) -> Noise {
     Noise {
         deviation: quantile::noise(values, [1.0, -2.0, 1.0]),
         ..Noise::default()

@@ -38,6 +38,8 @@ const ALONE: f64 = 8.0;
 /// Neighbouring samples of one value that are no chance, and the share of its range that the prediction moves meanwhile.
 const HELD: usize = 6;
 const MOVES: f64 = 0.05;
+/// Share of its noise that a channel beyond the end of its range has at most.
+const QUIET: f64 = 0.5;
 /// What names of results and columns begin with.
 const MEASURED: &str = "measured";
 
@@ -267,10 +269,11 @@ impl Compared {
         Some(self.differences().map(|own| own / deviation).collect())
     }
 
-    /// The longest stretch of neighbouring samples of one value, or at the end of the channel's range but for noise, over which the prediction
-    /// moves by more than noise and a share of its range, and beyond that end: how many, the first row, and by how much the prediction moves.
+    /// The longest stretch of neighbouring samples of one value, or at the end of the channel's range with less than its noise, over which the
+    /// prediction moves by more than noise and a share of its range, and beyond that end: how many, the first row, and by how much it moves.
     fn held(&self) -> Option<(usize, usize, f64)> {
-        let noise = ALONE * self.deviation().unwrap_or(0.0);
+        let deviation = self.deviation().unwrap_or(0.0);
+        let noise = ALONE * deviation;
         let least = noise.max(MOVES * self.range());
         let (lowest, highest) = ends(&self.measured);
         let mut longest: Option<(usize, usize, f64)> = None;
@@ -287,8 +290,11 @@ impl Compared {
                 let (own, predicted) = (&self.measured[rows.clone()], ends(&self.predicted[rows]));
                 let beyond = own.contains(&highest) && predicted.1 > highest + noise
                     || own.contains(&lowest) && predicted.0 < lowest - noise;
+                // a rotor that rests shows the noise of its sensor, one beyond the end of the range less
+                let quiet =
+                    count >= 2 * HELD && beyond && before::white(own).deviation < QUIET * deviation;
                 let moves = predicted.1 - predicted.0;
-                let is_held = count >= HELD && moves > least && (within == 0.0 || beyond);
+                let is_held = count >= HELD && moves > least && (within == 0.0 || quiet);
                 if is_held && longest.is_none_or(|(samples, ..)| count > samples) {
                     longest = Some((count, first, moves));
                 }

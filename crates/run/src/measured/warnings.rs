@@ -100,6 +100,8 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
             let part = part();
             list.push(OtherSize { part, ratio });
         } else if let (Some([slope, offset, left]), Ok(differs)) = (own.line(), own.relative())
+            // what falls is bounded by clearances; speeds and forces follow friction and damping
+            && curve.unit == "m"
             && left < LEAVES
             && differs > DIFFERS
         {
