@@ -7,6 +7,7 @@ use crate::{
 };
 use std::path::Path;
 use std::process::Command;
+use std::thread;
 use std::time::Instant;
 
 /// Where a full check that passed writes the commit that it passed on.
@@ -35,11 +36,15 @@ const FAST: [Guard; 9] = [
     ("format", toolchain::format),
 ];
 
-const SLOW: [Guard; 6] = [
+const SLOW: [Guard; 4] = [
     ("packages", toolchain::packages),
     ("lints", toolchain::lints),
     ("documentation pages", toolchain::pages),
     ("scenarios", scenarios::check),
+];
+
+/// Of these each uses one core for the most part.
+static SIDE_BY_SIDE: [Guard; 2] = [
     ("Python", python::check),
     ("documentation examples", toolchain::examples),
 ];
@@ -53,6 +58,15 @@ pub fn run(extent: Extent) -> Result<(), String> {
     }
     let begun = commit(&repository.root);
     failed.extend(failures(&SLOW, &repository));
+    let both = thread::scope(|scope| {
+        let side = |guard: &'static Guard| {
+            let repository = &repository;
+            scope.spawn(move || failures(std::slice::from_ref(guard), repository))
+        };
+        let begun = SIDE_BY_SIDE.each_ref().map(side);
+        begun.map(|own| own.join().unwrap_or_else(|_| vec!["a guard panicked"]))
+    });
+    failed.extend(both.concat());
     if !failed.is_empty() {
         println!("with findings: {}", failed.join(", "));
     }
@@ -96,10 +110,11 @@ fn failures(guards: &[Guard], repository: &Repository) -> Vec<&'static str> {
     for (name, guard) in guards {
         let start = Instant::now();
         let outcome = guard(repository);
-        println!("{}", line(name, &outcome, start.elapsed().as_secs()));
+        let mut lines = line(name, &outcome, start.elapsed().as_secs());
         for finding in &outcome.findings {
-            println!("    {finding}");
+            lines.push_str(&format!("\n    {finding}"));
         }
+        println!("{lines}");
         if !outcome.findings.is_empty() {
             failed.push(*name);
         }
