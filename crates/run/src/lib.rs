@@ -140,6 +140,7 @@ impl Machine<'_> {
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
         let declared: Vec<_> = warnings::declared().collect();
         outcome.limits = limits::of(self.scenario, &outcome, &declared);
+        measured::warnings::reserve(&mut outcome.limits, &outcome.warnings);
         outcome
     }
 

@@ -4,6 +4,8 @@ use crate::folder::{Folder, changed, stamp};
 use crate::jobs::run_name;
 use auxbear::report::directory::{page_run, read};
 use auxbear::report::page;
+use auxbear::scenario::SystemName;
+use auxbear::study::Study;
 use auxbear::{BuiltIn, Scenario, StudyFile};
 use indexmap::IndexMap;
 use serde::Deserialize;
@@ -20,8 +22,10 @@ const MOST_INPUTS: usize = 12;
 #[derive(Default)]
 pub struct Runs {
     read: Mutex<BTreeMap<String, (u128, Value)>>,
-    /// Values that files give now, by name and last change.
+    /// Values that files give now, by name and system of a run, and last change.
     files: Mutex<BTreeMap<String, (u128, Option<InputTexts>)>>,
+    /// What studies ask now with their limits named, by name and what their files say.
+    studies: Mutex<BTreeMap<String, (String, Option<String>)>>,
 }
 
 /// Paths with their values as written.
@@ -59,7 +63,7 @@ impl Runs {
             if let Some(file) = files.get(stem(&name)) {
                 row["file"] = json!(file);
                 row["differs"] = match row["study"] == true {
-                    true => json!(differences_of_study(&folder.root().join(file), &path)),
+                    true => json!(self.differences_of_study(folder, file, &path)),
                     false => json!(self.differences(folder, file, &row)),
                 };
             }
@@ -84,13 +88,15 @@ impl Runs {
     fn differences(&self, folder: &Folder, file: &str, row: &Value) -> Option<Vec<[String; 3]>> {
         let path = folder.root().join(file);
         let at = stamp(&path);
+        let system = row["system"].as_str().unwrap_or_default();
+        let name = format!("{file} {system}");
         let mut cache = self.files.lock().unwrap_or_else(PoisonError::into_inner);
-        let known = cache.get(file).filter(|(then, _)| *then == at);
+        let known = cache.get(&name).filter(|(then, _)| *then == at);
         let now = match known {
             Some((_, now)) => now.clone(),
             None => {
-                let now = given(&path);
-                cache.insert(file.to_string(), (at, now.clone()));
+                let now = given(&path, system);
+                cache.insert(name, (at, now.clone()));
                 now
             }
         }?;
@@ -107,40 +113,64 @@ impl Runs {
         });
         Some(changed.collect())
     }
+
+    /// Which of its two files have changed since a study was computed; none where they cannot be read now.
+    fn differences_of_study(
+        &self,
+        folder: &Folder,
+        file: &str,
+        directory: &Path,
+    ) -> Option<Vec<[String; 3]>> {
+        let now = StudyFile::read(&folder.root().join(file)).ok()?;
+        let scenario = now.scenario.resolved.toml();
+        let asked = now.toml();
+        let said = format!("{asked}{scenario}");
+        let mut cache = self.studies.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = cache.get(file).filter(|(then, _)| *then == said);
+        let named = match known {
+            Some((_, named)) => named.clone(),
+            None => {
+                // a run has its limits by the names of results
+                let named = Study::new(now).ok().map(|study| study.file.toml());
+                cache.insert(file.to_string(), (said, named.clone()));
+                named
+            }
+        };
+        // members that were added are no other study, and the head is the version
+        let compared = |text: &str| -> Vec<String> {
+            let lines = text
+                .lines()
+                .filter(|line| !line.starts_with("added = ") && !line.starts_with('#'));
+            lines.map(str::to_string).collect()
+        };
+        let files = [
+            ("study.toml", named.unwrap_or(asked)),
+            ("scenario.toml", scenario),
+        ];
+        let changed = files.into_iter().filter_map(|(name, now)| {
+            let then = compared(&fs::read_to_string(directory.join(name)).ok()?);
+            let now = compared(&now);
+            let at = then.iter().zip(&now).position(|(then, now)| then != now);
+            let at = at.or((then.len() != now.len()).then_some(then.len().min(now.len())))?;
+            let line = |lines: &[String]| lines.get(at).cloned().unwrap_or_default();
+            Some([
+                name.trim_end_matches(".toml").to_string(),
+                line(&then),
+                line(&now),
+            ])
+        });
+        Some(changed.collect())
+    }
 }
 
-/// Which of its two files have changed since a study was computed; none where they cannot be read now.
-fn differences_of_study(file: &Path, directory: &Path) -> Option<Vec<[String; 3]>> {
-    let now = StudyFile::read(file).ok()?;
-    // members that were added are no other study, and the head is the version
-    let compared = |text: &str| -> Vec<String> {
-        let lines = text
-            .lines()
-            .filter(|line| !line.starts_with("added = ") && !line.starts_with('#'));
-        lines.map(str::to_string).collect()
-    };
-    let files = [
-        ("study.toml", now.toml()),
-        ("scenario.toml", now.scenario.resolved.toml()),
-    ];
-    let changed = files.into_iter().filter_map(|(name, now)| {
-        let then = compared(&fs::read_to_string(directory.join(name)).ok()?);
-        let now = compared(&now);
-        let at = then.iter().zip(&now).position(|(then, now)| then != now);
-        let at = at.or((then.len() != now.len()).then_some(then.len().min(now.len())))?;
-        let line = |lines: &[String]| lines.get(at).cloned().unwrap_or_default();
-        Some([
-            name.trim_end_matches(".toml").to_string(),
-            line(&then),
-            line(&now),
-        ])
-    });
-    Some(changed.collect())
-}
-
-/// What the file of a scenario gives now, as a run's summary says it.
-fn given(path: &Path) -> Option<InputTexts> {
-    let scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
+/// What the file of a scenario gives now, as the summary of a run of a system says it: the analysis of a machine's rotor is one of its own.
+fn given(path: &Path, system: &str) -> Option<InputTexts> {
+    let mut scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
+    if system == SystemName::Rotor.word()
+        && let Some(alone) = scenario.rotor_alone()
+    {
+        scenario = alone.ok()?;
+    }
     let nothing = auxbear::Outcome {
         system: scenario.system.name().word(),
         pictures: vec![crate::check::no_picture()],
@@ -218,23 +248,22 @@ fn row_of(path: &Path, summary: &Path) -> io::Result<Value> {
         )
     };
     let results: Vec<Value> = quantities.iter().filter_map(headline).collect();
-    let limits = summary["limits"].as_array();
+    // a qualification judges its cases, each by all limits
+    let cases = summary["design"] == "qualification";
+    let judged = if cases { "ranking" } else { "limits" };
     let verdict = |word: &str| {
-        limits
-            .into_iter()
-            .flatten()
-            .filter(|limit| limit["verdict"] == word)
-            .count()
+        let judged = summary[judged].as_array().into_iter().flatten();
+        judged.filter(|own| own["verdict"] == word).count()
     };
     let inputs = inputs_of(&summary);
     let shown = |name: &str| path.join(name).is_file();
     Ok(json!({
         "title": summary["title"],
-        "system": if study { json!("study") } else { summary["system"].clone() },
+        "system": if cases { json!("qualification") } else if study { json!("study") } else { summary["system"].clone() },
         "complete": summary["complete"],
         "stop": summary["stop"]["text"],
         "results": results,
-        "limits": { "pass": verdict("pass"), "fail": verdict("fail") },
+        "limits": { "of": if cases { "cases" } else { "limits" }, "pass": verdict("pass"), "fail": verdict("fail"), "open": verdict("undecided") },
         "warnings": summary["warnings"].as_array().map_or(0, Vec::len),
         "version": summary["version"],
         "document": shown("document.html"),

@@ -1,7 +1,9 @@
 //! What a comparison with measured channels does not show.
 
 use super::{Curve, Run, features};
-use outcome::Warning;
+use outcome::limits::is_of;
+use outcome::{Judged, Verdict, Warning};
+use problem::warning::Severity;
 use std::f64::consts::PI;
 
 /// Difference of orbit phases at the release from which on impacts differ by it, rad, and in standard uncertainties.
@@ -33,14 +35,15 @@ problem::warnings! {
         Held { part: text, count: "", from: "s", to: "s", moves: "of the column" } "AB2349" Invalid ("Channel of {part} keeps its value from {from:.4} s to {to:.4} s ({count:.0} samples), where the prediction moves by {moves:.2e}: dead, stuck or at the end of its range. What is compared there is not the machine.");
         OtherSize { part: text, ratio: "1" } "AB2350" Invalid ("Channel of {part} covers {ratio:.2e} times the range of the prediction: its unit, its scale or the channel is another one, or the machine does not do what this run predicts.");
         Rescaled { part: text, slope: "1", offset: "of the column", left: "1" } "AB2351" Uncertain ("Channel of {part} is nearest to {slope:.3} times the prediction and {offset:.2e} beside it; that leaves {:.0} % of the difference. Its scale or its zero is another one, or an input of the run acts alike: misfit, features and estimates take it as it is.", 100.0 * left);
+        EndsBefore { part: text, end: "s", contact: "s" } "AB2352" Invalid ("File of {part} ends at {end:.4} s, and the first contact is predicted at {contact:.4} s: nothing of the impact is compared, whatever its misfit.");
         Backward { part: text } "AB2348" Invalid ("The orbit of {part} before the release turns against the rotor: x and y exchanged, or one of them of the wrong sign (scale = -1). Only between two critical speeds of unequal supports does unbalance make such an orbit. What is compared here is a mirrored motion.");
     }
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
     use MeasuredWarning::{
-        Alone, Backward, Coarse, Gaps, Held, OtherNoise, OtherSize, PartOfRun, PhaseDiffers,
-        PhaseUnknown, Rescaled,
+        Alone, Backward, Coarse, EndsBefore, Gaps, Held, OtherNoise, OtherSize, PartOfRun,
+        PhaseDiffers, PhaseUnknown, Rescaled,
     };
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
@@ -51,6 +54,10 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         return Vec::new();
     };
     let mean = |times: &[f64]| (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    let contacts = run.outcome.quantities.iter();
+    let contacts = contacts.filter(|own| is_of(&own.name, "time_to_first_contact"));
+    let contacts = contacts.filter_map(|own| run.outcome.number(&own.name));
+    let contact = contacts.map(|own| own + run.release).reduce(f64::min);
     for (index, curve) in curves.iter().enumerate() {
         let part = || curve.name.clone();
         let (interval, [from, to]) = (mean(&curve.times), curve.span());
@@ -125,7 +132,10 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 at: own.time[*first] + run.release,
             });
         }
-        if from > begin + interval || to < end - interval {
+        if let Some(contact) = contact.filter(|contact| to < *contact) {
+            let (part, end) = (part(), to);
+            list.push(EndsBefore { part, end, contact });
+        } else if from > begin + interval || to < end - interval {
             let (part, from, to, end) = (part(), from.max(*begin), to.min(*end), *end);
             list.push(PartOfRun {
                 part,
@@ -155,4 +165,22 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         }
     }
     list.into_iter().map(Warning::from).collect()
+}
+
+/// A comparison that is not one of the machine with its prediction holds no limit.
+pub(crate) fn reserve(limits: &mut [Judged], warnings: &[Warning]) {
+    let declared = MeasuredWarning::DECLARED.iter();
+    let invalid = declared.filter(|own| own.severity == Severity::Invalid);
+    let codes: Vec<&str> = invalid.map(|own| own.code).collect();
+    let found = warnings.iter().find(|own| codes.contains(&own.code));
+    let Some(found) = found else {
+        return;
+    };
+    let compares = |own: &&mut Judged| {
+        own.verdict == Verdict::Pass && own.limit.quantity.starts_with(super::MEASURED)
+    };
+    for judged in limits.iter_mut().filter(compares) {
+        judged.verdict = Verdict::Undecided;
+        judged.why = format!("{}: {}", found.code, found.text);
+    }
 }

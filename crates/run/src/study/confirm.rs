@@ -1,7 +1,7 @@
 //! Members that lie nearest to a limit, run again at design accuracy: both values are kept, and design decides.
 
 use super::Study;
-use super::table::{Column, LATE, Table};
+use super::table::{Column, LATE, STOPPED, Table};
 use crate::Options;
 use outcome::forbidden::not_evaluated;
 use outcome::list::NOT_GIVEN;
@@ -92,6 +92,13 @@ impl Study {
                     if contacts == Some(0.0) {
                         *value = Some(0.0);
                     }
+                }
+                // what was broken when a run stopped stays so
+                let stopped = table.values(&format!("{STOPPED}{}", limit.quantity));
+                for (value, stopped) in values.iter_mut().zip(stopped) {
+                    let breaks =
+                        |value: &f64| !limit.side.holds(limits::sized(limit, *value), limit.bound);
+                    *value = value.or(stopped.filter(breaks));
                 }
                 let values = values.into_iter();
                 let mut known = self.known.iter();

@@ -92,7 +92,7 @@ impl Study {
             let own = |known: &&Quantity| known.name.rsplit('.').next() == Some(name);
             let named = self.known.iter().filter(own);
             let worst = named.map(|result| {
-                let values = table.values(&result.name).into_iter().zip(&table.members);
+                let values = table.reached(&result.name).into_iter().zip(&table.members);
                 let known = values.filter_map(|(value, member)| Some((value?, *member)));
                 let worst = known.max_by(|a, b| size(a.0).total_cmp(&size(b.0)));
                 Worst {

@@ -46,6 +46,8 @@ pub(super) struct Row {
 
 /// What a column begins with that has the time until which an instant did not come in a run that ended as planned, s.
 pub const LATE: &str = "late.";
+/// What a column begins with that has a result as it was when a run stopped that did not end as planned.
+pub const STOPPED: &str = "stopped.";
 /// What a column begins with that is 1 for members with a warning of that code.
 const WARNING: &str = "warning.";
 
@@ -103,9 +105,14 @@ impl Table {
                     Value::None { .. } => f64::NAN,
                     Value::List(_) | Value::Text(_) => continue,
                 };
-                // results of a run that ended early are those of another question
-                let value = if row.whole { value } else { f64::NAN };
-                last = table.set(last + 1, &result.name, result.unit, || result.law, value);
+                // results of a run that ended early are those of another question, but what is broken by then stays so
+                let kept = if row.whole { value } else { f64::NAN };
+                last = table.set(last + 1, &result.name, result.unit, || result.law, kept);
+                if !row.whole && value.is_finite() {
+                    let name = format!("{STOPPED}{}", result.name);
+                    let meaning = || "when a run stopped that did not end as planned";
+                    last = table.set(last + 1, &name, result.unit, meaning, value);
+                }
                 if let (true, Some(from)) = (result.awaited && value.is_nan() && row.whole, from) {
                     let name = format!("{LATE}{}", result.name);
                     let meaning = || "the run ended before it came";
@@ -169,6 +176,13 @@ impl Table {
             }
         };
         self.members.iter().enumerate().map(of).collect()
+    }
+
+    /// A result of each member, of one that stopped as it was then.
+    pub fn reached(&self, name: &str) -> Vec<Option<f64>> {
+        let stopped = self.values(&format!("{STOPPED}{name}")).into_iter();
+        let values = self.values(name).into_iter().zip(stopped);
+        values.map(|(value, stopped)| value.or(stopped)).collect()
     }
 
     /// Whether some member has a warning.

@@ -1,7 +1,9 @@
 //! What happens to a machine, and when: `[[event]]`.
 
 use crate::drop::case::Cases;
-use crate::drop::event_checks::{axial_magnet_lost, check, keys_of, relevitated, until_standstill};
+use crate::drop::event_checks::{
+    axial_magnet_lost, check, check_loss, keys_of, relevitated, until_standstill,
+};
 use crate::key::quoted;
 use crate::rotor::FlexibleRotor;
 use crate::rotor::keys::EVENT;
@@ -51,7 +53,7 @@ words! {
 
 impl Happening {
     /// Whether it is of magnets, sensors or controllers.
-    fn is_of_magnets(self) -> bool {
+    pub(super) fn is_of_magnets(self) -> bool {
         !matches!(
             self,
             Happening::Brake | Happening::Drive | Happening::Load | Happening::Unbalance
@@ -208,6 +210,7 @@ pub fn events(
 ) -> Result<(Cases, Vec<Event>)> {
     let cases = Cases::of(parts, values)?;
     let of = |case: Option<&str>| of_case(parts, (rotor, case), values);
+    check_loss(&cases, parts, rotor, values)?;
     // the others have to be right as well
     for other in cases.others() {
         of(Some(other))?;

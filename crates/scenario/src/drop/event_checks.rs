@@ -1,12 +1,16 @@
 //! What events of a machine may not be together.
 
+use crate::drop::case::Cases;
 use crate::drop::event::{Event, Happening, Happens, LOST_AT, MagnetEvent, When};
 use crate::drop::kinds::SpinKind;
 use crate::key::quoted;
+use crate::rotor::FlexibleRotor;
+use crate::rotor::keys::EVENT;
 use crate::rotor::levitation::Magnets;
 use crate::rotor::tables::Part;
 use crate::run::Until;
 use crate::values::Values;
+use problem::words::Words;
 use problem::{Code, Result};
 use std::cmp::Ordering;
 use std::collections::BTreeSet;
@@ -199,6 +203,29 @@ impl Event {
     /// Whether the rotor is levitated again by it.
     pub fn relevitates(&self) -> bool {
         matches!(self.what, Happens::Magnets(_, MagnetEvent::Relevitated(_)))
+    }
+}
+
+/// Refuses cases of which none is of magnets where no key says when these lose their power: by its default all would begin with a fall.
+pub(super) fn check_loss(
+    cases: &Cases,
+    parts: &[Part],
+    rotor: &FlexibleRotor,
+    values: &Values,
+) -> Result<()> {
+    let events = parts.iter().filter(|own| own.kind.word == EVENT);
+    let mut happenings = events.filter_map(|part| part.word("do").and_then(Happening::of_word));
+    let is_held = rotor.levitation.is_some();
+    if cases.names.is_empty() || !is_held || values.is_own(LOST_AT) {
+        return Ok(());
+    }
+    match happenings.any(Happening::is_of_magnets) {
+        true => Ok(()),
+        false => {
+            let found = "cases without an event of magnets, which would all begin with the loss of their power";
+            let needed = "the instant of that loss is needed: 0 s where each case begins with the fall, later than run.duration where the magnets hold the rotor to the end";
+            values.refuse(Code::MissingKey, LOST_AT, found, needed)
+        }
     }
 }
 

@@ -8,7 +8,7 @@ use crate::drop::{Drop, Shaft};
 use crate::rotor::LevitationModel;
 use levitation::ClosedLoop;
 use levitation::response::Loaded;
-use model::system::machine::record::{BearingRecord, Levitated};
+use model::system::machine::record::Levitated;
 use outcome::Warning;
 use outcome::list::{List, origins, results};
 use scenario::{Event, Happens, MagnetEvent, Relevitation, When};
@@ -301,17 +301,12 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     list
 }
 
-/// What happens to a rotor that touches nothing and has power, so shortly before the end that its contacts would come after it.
+/// What happens so shortly before the end that the contacts which follow would come after it.
 pub(super) fn cut_off(context: &Context) -> Vec<Warning> {
-    let (record, end) = (&context.finished.record, context.end);
-    let touches = |own: &BearingRecord| {
-        let faces = own.spatial.as_deref();
-        !own.contacts.is_empty() || faces.is_some_and(|own| own.last_axial_contact.is_some())
-    };
-    let held = record.lost.is_none() && !record.bearings.iter().any(touches);
-    let Some(given) = context.setup.drop().shaft.as_deref().filter(|_| held) else {
+    let Some(given) = context.setup.drop().shaft.as_deref() else {
         return Vec::new();
     };
+    let end = context.end;
     let each = events(given).filter(|event| !event.relevitates());
     let times = each.filter_map(|event| Some((event.name.as_str(), time_of(event.when, context)?)));
     let bases = context.setup.machine.constants.base.iter();

@@ -228,6 +228,7 @@ results! {
         "contact_start_times": list "s", CONTACT_STARTS, "begins of the contacts after the release" => {
             run.record.contacts.iter().map(|contact| run.after(contact.start)).collect::<Vec<_>>()
         };
+        "slips_at_end": number "", SLIPS, "1 where the rotor touches it at the end, or may soon again, and its inner race or bushing is slower than 95 % of the rotor; else 0" => run.slips_at_end();
     }
     fn spin_up(setup: &(), run: &Landed) {
         "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" in instants_after_release "race 50 %" in note "Inner race at 95 % speed: half of it at" => {
@@ -242,7 +243,6 @@ results! {
         "inner_race_final_speed": number "rad/s", SPEED, "speed of the inner race at the end" => {
             run.balls.end[run.context.setup.machine.layout().bearings[run.k].inner.spin()]
         };
-        "slips_at_end": number "", SLIPS, "1 where the rotor touches it at the end, or may soon again, and its inner race is slower than 95 % of the rotor; else 0" => run.slips_at_end();
         "cage_final_speed": number "rad/s", SPEED, "speed of the cage at the end" => run.context.setup.machine.cage_speed(run.k, run.balls.end);
     }
     fn load(given: &Bearing, run: &Landed) {

@@ -26,10 +26,13 @@ function button(words, act, attributes = {}) {
 }
 
 let fading = 0;
+// Whether the line says that the studio does not answer.
+let answeredNot = false;
 
-// A line that is read and goes away; a fault stays until the next one.
+// A line that is read and goes away; a fault stays until the next one, a click on it or Esc.
 function say(words, fault = false) {
   const line = byId("said");
+  answeredNot = false;
   line.textContent = words;
   line.className = words ? (fault ? "fault shown" : "shown") : "";
   clearTimeout(fading);
@@ -37,6 +40,8 @@ function say(words, fault = false) {
 }
 
 class Refused extends Error {}
+// Nothing came of what was asked, and it may later.
+class Away extends Refused {}
 
 async function ask(path, body) {
   const given = body === undefined ? {} : { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) };
@@ -45,12 +50,19 @@ async function ask(path, body) {
     answer = await fetch(path, given);
   } catch {
     document.body.classList.add("away");
-    throw new Refused("The studio does not answer: the program has ended. Start it again and open the address that it prints.");
+    throw new Away("The studio does not answer: the program has ended. Start it again and open the address that it prints.");
   }
-  document.body.classList.remove("away");
   const found = await answer.json();
+  const away = answer.status === 403;
+  if (document.body.classList.toggle("away", away)) throw new Away(found.error);
+  if (answeredNot) say("");
   if (!answer.ok) throw new Refused(found.error || `status ${answer.status}`);
   return found;
+}
+
+function fail(problem) {
+  say(problem.message, true);
+  answeredNot = problem instanceof Away;
 }
 
 // Does what a person asked for, and names what was wrong with it.
@@ -59,7 +71,7 @@ function attempt(act) {
     try {
       return await act(...given);
     } catch (problem) {
-      say(problem.message, true);
+      fail(problem);
       if (!(problem instanceof Refused)) throw problem;
     }
   };

@@ -30,7 +30,9 @@ async function editorOf(name, text, hash) {
   let wanted = null;
   // whether fields show what stands in the text although they are typed in
   let forced = false;
-  const dirty = () => past.now !== saved.text;
+  // Values of fields that are not in the text yet: it is broken, or the studio did not answer.
+  let waiting = [];
+  const dirty = () => past.now !== saved.text || waiting.length > 0;
 
   const editor = textEditor((now) => {
     past.change(now, true);
@@ -115,8 +117,9 @@ async function editorOf(name, text, hash) {
     shown(answer.problem);
     drawing.parentNode.hidden = kind === "study" || kind === "qualify";
     if (!answer.problem) drawing.classList.toggle("none", !drawMachine(drawing, answer));
-    drawing.classList.toggle("old", Boolean(answer.problem));
-    const pending = waiting.splice(0);
+    for (const own of [drawing, loop]) own.classList.toggle("old", Boolean(answer.problem));
+    const pending = waiting;
+    waiting = [];
     for (const [path, value] of pending) await act.edit(path, value);
     if (wanted) {
       const key = wanted;
@@ -154,8 +157,11 @@ async function editorOf(name, text, hash) {
     else if (analysed.problem) loop.replaceChildren(el("p", {}, analysed.problem.message));
   }
 
-  // Changes by fields: one after the other, each of the text as it is then; while the text is broken they wait.
-  const waiting = [];
+  // Changes by fields: one after the other, each of the text as it is then; those that cannot be made wait.
+  const waits = (path, value) => {
+    waiting = [...waiting.filter(([own]) => pathText(own) !== pathText(path)), [path, value]];
+    tools();
+  };
   let turn = Promise.resolve();
   const inTurn = (make) => {
     turn = turn.then(attempt(async () => {
@@ -172,9 +178,14 @@ async function editorOf(name, text, hash) {
       const there = typedAt(found.typed, path);
       const empty = value.trim() === "";
       if (empty && there === undefined) return { text: now };
-      const answer = await ask(empty ? "/api/unset" : "/api/set", { text: now, kind, path, value, made });
-      if (!answer.broken) return answer;
-      waiting.push([path, value]);
+      try {
+        const answer = await ask(empty ? "/api/unset" : "/api/set", { text: now, kind, path, value, made });
+        if (!answer.broken) return answer;
+      } catch (problem) {
+        if (problem instanceof Away) waits(path, value);
+        throw problem;
+      }
+      waits(path, value);
       return { text: now };
     }),
     add: (path, keys) => inTurn((now) => ask("/api/add", { text: now, kind, path, keys })),
@@ -184,6 +195,7 @@ async function editorOf(name, text, hash) {
   // Saves; what somebody else wrote meanwhile is merged where both changed other lines, else asked for.
   async function save() {
     await settled();
+    if (!asks.hidden) throw new Refused(`${name} was changed outside: choose first which lines to keep`);
     const now = past.now;
     const answer = await ask("/api/save", { name, text: now, hash: saved.hash });
     if (answer.theirs === undefined) {
@@ -229,6 +241,7 @@ async function editorOf(name, text, hash) {
 
   async function run(task) {
     await settled();
+    if (waiting.length) throw new Refused("A field is not in the text yet: it waits until the text is valid and the studio answers");
     if (dirty() && !(await save())) return;
     const { id } = await ask("/api/run", { name, task });
     await refresh();
@@ -255,6 +268,7 @@ async function editorOf(name, text, hash) {
     // Compares with the file from time to time.
     async compare() {
       if (!asks.hidden) return;
+      if (waiting.length) await check();
       const there = await ask(`/api/file?name=${encodeURIComponent(name)}`);
       if (there.hash !== saved.hash) {
         if (there.text === past.now) saved = there;

@@ -146,16 +146,17 @@ function formsOf(table, act) {
     node.append(box);
   }
   const find = () => {
-    const wanted = filter.value.trim().toLowerCase();
+    const wanted = filter.value.toLowerCase().split(/[\s_.]+/).filter(Boolean);
     for (const box of node.querySelectorAll(".section")) {
       let any = false;
       for (const row of box.querySelectorAll(".field")) {
-        const hit = !wanted || row.dataset.path.includes(wanted) || row.querySelector("label").title.toLowerCase().includes(wanted);
+        const own = `${row.dataset.path} ${row.querySelector("label").title}`.toLowerCase();
+        const hit = wanted.every((word) => own.includes(word));
         row.classList.toggle("missed", !hit);
         any = any || (hit && !row.classList.contains("idle"));
       }
-      box.classList.toggle("missed", Boolean(wanted) && !any);
-      if (wanted && any) box.open = true;
+      box.classList.toggle("missed", wanted.length > 0 && !any);
+      if (wanted.length && any) box.open = true;
     }
   };
   filter.addEventListener("input", find);

@@ -59,11 +59,21 @@ function jobView(id) {
 
 const numberOf = (result) => (typeof result.value === "number" ? FIGURES.text(result.value, result.unit) : result.value ?? "–");
 
-// Results of the table: those that most of its runs have, first.
+// Results of the table: the first ones of each system, most of all of that with the most runs.
 function resultColumns(rows) {
-  const counts = new Map();
-  for (const row of rows) for (const { short } of row.results || []) counts.set(short, (counts.get(short) || 0) + 1);
-  return [...counts.keys()].slice(0, 6);
+  const systems = new Map();
+  for (const { system, results } of rows) systems.set(system, [...(systems.get(system) || []), (results || []).map(({ short }) => short)]);
+  const byRuns = [...systems.values()].sort((one, other) => other.length - one.length);
+  const columns = byRuns.flatMap((runs, k) => [...new Set(runs.flat())].slice(0, k ? 3 : 6));
+  return [...new Set(columns)].slice(0, 12);
+}
+
+// A result of a run: of several bearings each, in their order.
+function resultCell(row, short) {
+  const own = (row.results || []).filter((one) => one.short === short);
+  const several = own.length > 1;
+  const title = own.map(({ name, words }, k) => (several ? `${name}: ${numberOf(own[k])}` : words));
+  return el("td", { class: "number", title: [several ? own[0].words : "", ...title].filter(Boolean).join("\n") }, own.map(numberOf).join(" · "));
 }
 
 async function runsView() {
@@ -84,17 +94,21 @@ async function runsView() {
     const list = row.differs.map(([path, then, now]) => `${path}: ${then} → ${now}`).join("\n");
     return el("span", { class: "stale", title: list }, `stale: ${row.differs.length === 1 ? row.differs[0][0] : `${row.differs.length} inputs`} changed`);
   };
-  const limits = (row) => (row.limits && row.limits.pass + row.limits.fail ? el("span", { class: row.limits.fail ? "bad" : "good" }, row.limits.fail ? `${row.limits.fail} of ${row.limits.pass + row.limits.fail} not held` : `${row.limits.pass} held`) : "");
+  const limits = (row) => {
+    const { of, pass = 0, fail = 0, open = 0 } = row.limits || {};
+    const all = pass + fail + open;
+    if (!all) return "";
+    const undecided = open ? `${open} of ${all} ${of} undecided` : "";
+    if (fail) return el("span", { class: "bad" }, [`${fail} of ${all} ${of} not held`, undecided].filter(Boolean).join(", "));
+    return open ? el("span", { class: "stale" }, undecided) : el("span", { class: "good" }, `${pass} ${of} held`);
+  };
   const cells = (row) => [
     el("td", {}, choose(row)),
     el("td", { class: "name" }, el("a", { href: hrefOf("run", row.directory) }, row.directory.replace(/^runs\//, "")), el("small", {}, row.broken || row.title || "")),
     el("td", {}, words(row.system || "")),
     el("td", {}, row.complete === false ? el("span", { class: "stale", title: row.stop }, "not complete") : stale(row)),
     ...inputs.map((path) => el("td", {}, (row.inputs || {})[path] || "")),
-    ...results.map((name) => {
-      const result = (row.results || []).find((one) => one.short === name);
-      return el("td", { class: "number", title: result ? result.words : "" }, result ? numberOf(result) : "");
-    }),
+    ...results.map((name) => resultCell(row, name)),
     el("td", {}, limits(row)),
     el("td", { class: "date" }, dateText(row.date)),
   ];

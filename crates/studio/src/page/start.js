@@ -95,7 +95,9 @@ const bearingNames = attempt(async () => {
   document.body.append(el("datalist", { id: "bearings" }, list.map((bearing) => el("option", { value: bearing.name }, line(bearing)))), el("datalist", { id: "materials" }, MATERIALS.map((value) => el("option", { value }))));
 });
 
+byId("said").addEventListener("click", () => say(""));
 document.addEventListener("keydown", (event) => {
+  if (event.key === "Escape") say("");
   const control = event.ctrlKey || event.metaKey;
   const typing = ["INPUT", "TEXTAREA", "SELECT"].includes(document.activeElement.tagName);
   if (address().view !== "edit" || !open) return;
@@ -136,7 +138,7 @@ async function follow() {
     if (open && address().view === "edit" && !busy) await open.compare();
     if (before && !busy && address().view === "runs") await showView();
   } catch (problem) {
-    say(problem.message, true);
+    fail(problem);
   }
   setTimeout(follow, wait);
 }
@@ -150,7 +152,7 @@ async function follow() {
     await showView();
     bearingNames();
   } catch (problem) {
-    say(problem.message, true);
+    fail(problem);
   }
   setTimeout(follow, 500);
 })();

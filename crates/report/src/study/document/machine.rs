@@ -134,10 +134,7 @@ impl Document<'_> {
     /// Critical speeds of the rotor, levitated or on its auxiliary bearings, within the range of the speeds that were run but at none of them.
     pub(super) fn critical_between_levels(&self) -> Option<String> {
         let (rotor, _) = self.rotor?;
-        let candidates = self.answer.ranking.iter().flat_map(|one| &one.values);
-        let texts = candidates.filter(|(path, _)| path == "rotor.speed");
-        let speeds = texts.filter_map(|(_, text)| units::parse_quantity(text).ok());
-        let levels: Vec<f64> = speeds.map(|own| own.value_si.abs()).collect();
+        let levels = self.speeds();
         let is_speed = |name: &str| name.contains("critical_") && name.ends_with(".speed");
         let between = rotor.quantities.iter().filter_map(|own| {
             let Value::Number(speed) = own.value else {
@@ -151,6 +148,28 @@ impl Document<'_> {
             format!(
                 "No run is at a critical speed between the levels of rotor.speed: {}. A level there shows what it does.",
                 list.join(", ")
+            )
+        })
+    }
+
+    /// Sizes of the levels of the rotor's speed, rad/s; none where it is no level.
+    fn speeds(&self) -> Vec<f64> {
+        let candidates = self.answer.ranking.iter().flat_map(|one| &one.values);
+        let texts = candidates.filter(|(path, _)| path == "rotor.speed");
+        let speeds = texts.filter_map(|(_, text)| units::parse_quantity(text).ok());
+        speeds.map(|own| own.value_si.abs()).collect()
+    }
+
+    /// That no level is as fast as the machine of the file.
+    pub(super) fn slower_than_given(&self) -> Option<String> {
+        let given = self.study.file.scenario.resolved.get("rotor.speed")?;
+        let given = given.value_si?.abs();
+        let fastest = self.speeds().into_iter().reduce(f64::max)?;
+        (fastest < given * (1.0 - 1e-9)).then(|| {
+            format!(
+                "No run is as fast as the machine of the file: {} at most, of {}",
+                cell(Some(fastest), "rad/s"),
+                cell(Some(given), "rad/s")
             )
         })
     }

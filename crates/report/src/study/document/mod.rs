@@ -303,7 +303,7 @@ impl Document<'_> {
         out.push_str(&self.gravest());
         out.push_str(&self.first_table(&requirements));
         out.push_str(&note(
-            "Met: every run of every case in which it is required holds the bound. Not shown: the runs do not decide, or no result answers it. The margin is the distance to the bound as a \
+            "Met: every run of every case in which it is required holds the bound; of a requirement with a share so many do, and the value is the one that just they hold. Not shown: the runs do not decide, or no result answers it. The margin is the distance to the bound as a \
              share of the bound. Verdicts hold for the inputs of this hash alone: when one of them changes, run again.",
         ));
         out.push_str(&note(if self.is_planar() {
@@ -340,8 +340,13 @@ impl Document<'_> {
             format!("<li class=\"grave\"><code>{code}</code> {title}: {share}</li>\n")
         };
         let mut list: String = severe.iter().take(NAMED).map(row).collect();
-        if let Some(between) = self.critical_between_levels() {
-            let _ = writeln!(list, "<li class=\"grave\">{between}</li>");
+        let own = [
+            self.critical_between_levels(),
+            self.slower_than_given(),
+            self.at_screening(),
+        ];
+        for own in own.into_iter().flatten() {
+            let _ = writeln!(list, "<li class=\"grave\">{own}</li>");
         }
         let more = match severe.len().saturating_sub(NAMED) {
             0 => String::new(),
@@ -355,10 +360,42 @@ impl Document<'_> {
         }
     }
 
+    /// That the runs were computed at screening accuracy.
+    fn at_screening(&self) -> Option<String> {
+        let accuracy = self.study.file.scenario.resolved.get("run.accuracy")?;
+        (accuracy.text.as_deref() == Some("screening")).then(|| {
+            let confirmed = match self.study.file.confirm > 0 {
+                true => ": those near a limit were confirmed at design accuracy",
+                false => ": a margin of a few per cent is none, as no run was confirmed at design accuracy",
+            };
+            format!("Runs at screening accuracy{confirmed}")
+        })
+    }
+
+    /// How many runs hold a requirement that a share of them must hold, and the worst value of all.
+    fn of_share(&self, judged: &Judged) -> String {
+        let side = |value: f64| match judged.limit.side {
+            Side::Most => value,
+            Side::Least => -value,
+        };
+        let values = self.study.limited(&self.table, &judged.limit).into_iter();
+        let worst = values
+            .flatten()
+            .max_by(|a, b| side(*a).total_cmp(&side(*b)));
+        format!(
+            ": {} of {} runs hold it, the worst of all runs is {}",
+            judged.hold,
+            judged.members,
+            cell(worst, self.unit_of(&judged.limit))
+        )
+    }
+
     fn first_table(&self, requirements: &[Requirement]) -> String {
         let row = |(k, one): (usize, &Requirement)| {
             let judged = one.worst.map(|(_, judged, _)| judged);
-            let margin = judged
+            // of what the runs do not decide no distance is known
+            let decided = judged.filter(|_| one.verdict != Verdict::Undecided);
+            let margin = decided
                 .and_then(Judged::margin)
                 .map_or("–".to_string(), percent);
             let place = one
@@ -366,8 +403,12 @@ impl Document<'_> {
                 .map_or("–".to_string(), |(candidate, judged, member)| {
                     // of a share the run farthest beyond is not the one that decides
                     let member = member.filter(|_| judged.limit.share >= 1.0);
-                    let member = member.map_or(String::new(), |member| format!(", run {member}"));
-                    format!("{}{member}", of_values(&candidate.values))
+                    let more = match (member, judged.limit.share >= 1.0) {
+                        (Some(member), _) => format!(", run {member}"),
+                        (None, true) => String::new(),
+                        (None, false) => self.of_share(judged),
+                    };
+                    format!("{}{more}", of_values(&candidate.values))
                 });
             let why = match one.verdict {
                 Verdict::Undecided if one.worst.is_none() => one.why.clone(),
@@ -538,9 +579,9 @@ impl Document<'_> {
         known.filter(move |own| own.words_in("document") == Some(word))
     }
 
-    /// The values of a result over all runs.
+    /// The values of a result over all runs, those that stopped before their end as they were then.
     pub(super) fn values_of(&self, result: &outcome::Quantity) -> impl Iterator<Item = f64> {
-        self.table.values(&result.name).into_iter().flatten()
+        self.table.reached(&result.name).into_iter().flatten()
     }
 
     /// Names of the cases that run.
