@@ -281,6 +281,16 @@ fn a_file_that_is_changed_outside_is_merged_or_asked_for() {
         .wait("document.querySelector('.toml').value.includes('\"6 kg\"')");
     other(&session, "mass = \"7 kg\"", "mass = \"5 kg\"");
     session.browser.key("s", 83, 2);
+    session
+        .browser
+        .wait("!document.querySelector('.asks').hidden");
+    // saving again is no answer
+    session.browser.key("s", 83, 2);
+    session
+        .browser
+        .wait("document.getElementById('said').textContent.includes('choose first')");
+    assert!(session.text("drop.toml").contains("mass = \"5 kg\""));
+    session.browser.key("Escape", 27, 0);
     session.browser.click(".asks button", "Take theirs");
     session.browser.wait("document.getElementById('field-rotor.mass').value === '5 kg' && document.querySelector('.status').textContent === 'saved'");
     session.no_faults();

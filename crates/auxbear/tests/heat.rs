@@ -101,6 +101,8 @@ fn a_bushing_is_hot_where_the_rotor_rocks_in_it_and_not_all_round() {
     let all = into + number(&run, "friction_heat_into_rotor");
     assert!((all / number(&run, "rotor_race_friction_energy") - 1.0).abs() < 1e-9);
     assert!(text_of(&run, "AB2331").is_none());
+    // it rubs until the rotor stands
+    assert_eq!(number(&run, "slips_at_end"), 1.0);
 }
 
 const FILMS: &str = r#"

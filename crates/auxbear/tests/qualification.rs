@@ -23,6 +23,17 @@ fn machine() -> String {
         .replace("\"50 ms\"", "\"5 ms\"")
 }
 
+/// An event that comes just before the end, whatever came before it.
+#[test]
+fn what_follows_an_event_needs_time() {
+    let late = "\n[[event]]\nname = \"later\"\ndo = \"load\"\nnode = \"seal\"\nforce_y = \"-200 N\"\nat = ";
+    let warned = |at: &str| {
+        let run = ran(&format!("{}{late}\"{at}\"\n", machine()), &[]);
+        run.warnings.iter().any(|own| own.code == "AB2085")
+    };
+    assert!(warned("57 ms") && !warned("9 ms"));
+}
+
 #[test]
 fn what_names_a_case_happens_in_it_alone() {
     let machine = machine();
@@ -73,6 +84,23 @@ fn a_case_that_is_none_is_refused_and_so_is_one_that_contradicts_itself() {
     let again = "\n[[event]]\nname = \"again\"\ncase = \"axis lost\"\ndo = \"re-levitate\"\nbias_time = \"1 ms\"\nat = \"1 ms\"\n";
     let told = refused(&format!("{machine}{again}"), &[]);
     assert!(told.contains("event"), "{told}");
+}
+
+/// Without an event of magnets a default would begin each case with the loss of their power, whatever it is called.
+#[test]
+fn cases_say_when_the_magnets_lose_their_power() {
+    let machine = machine();
+    let (head, events) = machine.split_once("[[event]]").unwrap();
+    let mut blade = events
+        .split("[[event]]")
+        .filter(|own| own.contains("\"unbalance\""));
+    let text = format!("{head}[[event]]{}", blade.next().unwrap());
+    let told = parsed(&text, &[]).map(|_| ()).unwrap_err();
+    assert!(
+        told.contains("levitation.power_lost_at") && told.contains("run.duration"),
+        "{told}"
+    );
+    assert!(parsed(&text, &["levitation.power_lost_at=1 s"]).is_ok());
 }
 
 /// An event waits for one of its own case; a case without a loss of power has no instant of it, and a page says which case it shows.
@@ -267,6 +295,17 @@ fn a_case_whose_event_never_comes_is_undecided() {
     assert_eq!(just_lost.verdict, open);
     let why = just_lost.open.as_deref().unwrap();
     assert!(why.contains("AB2085"), "{why}");
+
+    // runs that stop at a pole of a magnet have reached the seal: that stays broken, with its value
+    let soft = "set = [\"mount.stiffness=1e4 N/m\", \"mount.damping=1 N s/m\"]\n";
+    let limit = "[[limit]]\nquantity = \"node.seal.least_distance\"\nleast = \"20 um\"\n";
+    let one = "[[input]]\npath = \"run.case\"\nchoice = [\"power lost\"]\n";
+    let (folder, study) = study_of(&machine(), &format!("{soft}{QUALIFIED}{one}{limit}")).unwrap();
+    let directory = Directory::open(&folder.path().join("out"), study, 0).unwrap();
+    let done = directory.run(&Options::unwatched(&never), &|_| {}).unwrap();
+    let stopped = &done.answer.ranking[0];
+    assert_eq!((stopped.draws, stopped.verdict), ([1, 1], Verdict::Fail));
+    assert!(stopped.limits[0].value.unwrap() < -0.2e-3);
 
     let other = "set = [\"run.case=blade lost\"]\n[design]\nkind = \"monte carlo\"\nmembers = 2\n[[input]]\npath = \"contact.friction_coefficient\"\nlognormal = 0.1\n\
         [[limit]]\ncase = \"axis lost\"\nquantity = \"drive_end.contact_count\"\nmost = 0\n";

@@ -14,6 +14,7 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use sha2::{Digest, Sha256};
 use std::cell::RefCell;
+use std::error::Error;
 use std::ffi::{CStr, CString, c_char, c_int, c_void};
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -335,7 +336,10 @@ impl Unit {
             return Err(format!("holds no library for {platform}"));
         }
         // SAFETY: native code that the user named; see the page.
-        unsafe { Library::new(&path) }.map_err(|error| error.to_string())
+        unsafe { Library::new(&path) }.map_err(|error| match error.source() {
+            Some(why) => format!("{error}: {why}"),
+            None => error.to_string(),
+        })
     }
 
     fn instantiate(&mut self) -> Result<(), String> {

@@ -2,7 +2,8 @@
 
 use crate::package::{self, Resources};
 use crate::variables::{self, Choice, Kind, Role, Variable};
-use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, build, write_directory};
+use auxbear::report::directory::NewDirectory;
+use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, build};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -87,6 +88,8 @@ pub struct Instance {
     past: Past,
     /// The machine, with the settings that it was built with.
     driven: Option<(Driven, Settings)>,
+    /// The place of its run directory, from the end of the initialisation on.
+    directory: Option<NewDirectory>,
 }
 
 /// An instance at an instant.
@@ -117,6 +120,7 @@ impl Instance {
             variables: Vec::new(),
             past: Past::none(),
             driven: None,
+            directory: None,
         };
         own.build()?;
         let driven = own.driven.as_ref().map(|(driven, _)| driven);
@@ -325,6 +329,15 @@ impl Instance {
     pub fn begin(&mut self) -> Result<(), Fault> {
         self.in_turn(&[Phase::Initializing])?;
         self.build()?;
+        let folder = &self.past.settings.run_directory;
+        self.directory = match folder.is_empty() {
+            true => None,
+            // one that cannot be written is no end of a run
+            false => {
+                let place = NewDirectory::reserve(Path::new(folder));
+                Some(place.map_err(|problem| problem.to_string())?)
+            }
+        };
         self.past.phase = Phase::Stepping;
         Ok(())
     }
@@ -382,24 +395,23 @@ impl Instance {
     /// Ends the run; its directory is written where one was named.
     pub fn terminate(&mut self) -> Result<(), Fault> {
         let was = std::mem::replace(&mut self.past.phase, Phase::Terminated);
-        let folder = self.past.settings.run_directory.clone();
-        if was != Phase::Stepping || folder.is_empty() {
-            return Ok(());
-        }
-        let Some((driven, _)) = &mut self.driven else {
+        let directory = self.directory.take();
+        let (Phase::Stepping, Some(directory), Some((driven, _))) =
+            (was, directory, &mut self.driven)
+        else {
             return Ok(());
         };
         let scenario = driven.scenario().clone();
         let written = build(&scenario).and_then(|machine| {
             let outcome = machine.outcome(driven);
-            write_directory(Path::new(&folder), &scenario, &outcome)
+            directory.finish(&scenario, &outcome)
         });
         written.map_err(|problem| problem.to_string())
     }
     /// Back to where it was instantiated.
     pub fn reset(&mut self) -> Result<(), Fault> {
         self.past = Past::none();
-        self.driven = None;
+        (self.driven, self.directory) = (None, None);
         self.build().map(|_| ())
     }
 

@@ -361,8 +361,19 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
         assert_eq!(known, [&"AB2351"], "{scale} {offset}");
     }
 
-    // a gap over the first impact: features before it stay, those after it are not given
+    // a file that ends before the first impact
     let contact = whole["measured.bearing.contact.force.first_contact.measured"];
+    let (codes, _) = damaged(&scenario, &run, |curve| {
+        let last = curve.times.partition_point(|time| *time < contact - 1e-3);
+        curve.times.truncate(last);
+        curve.values.truncate(last);
+    });
+    assert!(
+        codes.contains(&"AB2352") && !codes.contains(&"AB2343"),
+        "{codes:?}"
+    );
+
+    // a gap over the first impact: features before it stay, those after it are not given
     let (codes, gapped) = damaged(&scenario, &run, |curve| {
         let keep = |time: &f64| (time - contact).abs() > 3e-3;
         let both = curve
