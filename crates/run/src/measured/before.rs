@@ -9,7 +9,7 @@
 //! Of a channel that stands still before the release, as the speed of a race, the noise is that of its motion: the median second difference.
 //! Valid: a speed that differs from that of the run by a constant; other motions of the rotor before the release count as noise.
 
-use super::Curve;
+use super::{Curve, alone};
 use outcome::Outcome;
 use statistics::interpolation::{between, held};
 use statistics::least_squares::LeastSquares;
@@ -20,6 +20,8 @@ use std::f64::consts::TAU;
 
 /// Values before the release that a deviation is estimated from, at least.
 const FEWEST: usize = 16;
+/// Samples before the release that stand alone and are left out, at most.
+const MOST_ALONE: usize = 8;
 /// Turns before the release that are used, at most.
 const TURNS: f64 = 64.0;
 /// An orbit corrects the speed from so many standard uncertainties on.
@@ -75,6 +77,15 @@ impl Curve {
         let far = |time: &f64| angle(time).abs() > TURNS * TAU;
         let first = self.times[..last].partition_point(far);
         let (times, values) = (&self.times[first..last], &self.values[first..last]);
+        // few samples that stand alone are faults of the record, no noise
+        let lone = alone(values, white(values).deviation);
+        let lone: Vec<usize> = lone.into_iter().map(|own| own.0).collect();
+        let kept = |rows: &[f64]| -> Vec<f64> {
+            let own = rows.iter().enumerate();
+            let own = own.filter(|(row, _)| lone.len() > MOST_ALONE || !lone.contains(row));
+            own.map(|(_, own)| *own).collect()
+        };
+        let (times, values) = (&kept(times)[..], &kept(values)[..]);
         let since: Vec<f64> = times.iter().map(|time| time - release).collect();
         let angles: Vec<f64> = times.iter().map(angle).collect();
         let turns = angles.first().is_some_and(|angle| angle.abs() >= TAU);

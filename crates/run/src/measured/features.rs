@@ -103,9 +103,11 @@ impl Compared {
         of: impl Fn(Samples, Option<Uncertain>) -> [Found; N],
     ) -> Both<N> {
         let Before { mean, noise, .. } = &self.before;
+        let own = noise.clone().unwrap_or_default();
+        // the estimator of the measured curve, so that what it smooths away is the same of both
         let sides = [
-            (&self.measured, noise.clone().unwrap_or_default(), *mean),
-            (&self.predicted, Noise::default(), None),
+            (&self.measured, *mean, false),
+            (&self.predicted, None, true),
         ];
         let rows = (self.gap).map_or(self.time.len(), |gap| {
             self.time.partition_point(|time| *time <= gap)
@@ -117,20 +119,24 @@ impl Compared {
             Some(gap) if gap <= 0.0 || rows == 0 => Some(AT_GAP),
             _ => None,
         };
-        let sides = sides.map(|(values, noise, mean)| {
+        let sides = sides.map(|(values, mean, is_exact)| {
             if let Some(why) = why {
                 return from_fn(|_| no(why));
             }
             let samples = Samples {
                 times,
                 values: &values[..rows],
-                noise: &noise,
+                noise: &own,
+            };
+            let exact = |found: Uncertain| match is_exact {
+                true => Uncertain::exact(found.value),
+                false => found,
             };
             let before_gap = |why: String| match self.gap {
                 Some(_) => format!("{why} before the first gap of the channel"),
                 None => why,
             };
-            of(samples, mean).map(|own| own.map_err(before_gap))
+            of(samples, mean).map(|own| own.map(exact).map_err(before_gap))
         });
         (sides, noise.is_some())
     }
@@ -408,12 +414,12 @@ impl Orbit<'_> {
         }
         let interval = self.axes.map(|axis| run.curves[axis].interval());
         let is_coarse = interval[0].max(interval[1]) * run.spin() * OF_THE_ROTOR > TAU;
-        let noises = [points.noise.unwrap_or_default(), Noise::default()];
+        let noise = &points.noise.unwrap_or_default();
         let gaps = self
             .axes
             .map(|axis| run.all[axis].gap.unwrap_or(f64::INFINITY));
         let rows = (points.time).partition_point(|time| *time <= gaps[0].min(gaps[1]));
-        let of = |(of, noise): (&Vec<[f64; 2]>, &Noise)| {
+        let of = |(of, is_exact): (&Vec<[f64; 2]>, bool)| {
             let Some(clearance) = self.clearance(run) else {
                 return from_fn(|_| no("no bearing with a clearance is at this place"));
             };
@@ -436,15 +442,20 @@ impl Orbit<'_> {
                 true => no("fewer than four samples a turn of the rotor do not show the sense"),
                 false => whirl(radii, of, WHIRLS * clearance, GAP * interval[0]),
             };
-            [
+            let exact = |found: Uncertain| match is_exact {
+                true => Uncertain::exact(found.value),
+                false => found,
+            };
+            let found = [
                 contact.ok_or_else(|| {
                     "the curve does not cross the clearance beyond its noise, or has a gap before"
                         .to_string()
                 }),
                 turns,
-            ]
+            ];
+            found.map(|own| own.map(exact))
         };
-        let mut others = points.sides.iter().zip(&noises).map(of);
+        let mut others = points.sides.iter().zip([false, true]).map(of);
         let sides = self.phases(run).map(|phase| {
             let [contact, turns] = others.next().unwrap_or_else(|| from_fn(|_| no(LATE)));
             [phase, contact, turns]

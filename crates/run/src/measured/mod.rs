@@ -322,24 +322,10 @@ impl Compared {
         Some([slope, offset, left / self.rms().ok()?])
     }
 
-    /// Rows of the samples that stand alone, and by how much: beside the cubic through two neighbours on each side by more than noise.
+    /// Rows of the samples that stand alone, and by how much.
     fn alone(&self, values: &[f64]) -> Vec<(usize, f64)> {
-        let Some(deviation) = self.deviation() else {
-            return Vec::new();
-        };
-        let five = values.windows(5);
-        let beside: Vec<f64> = five
-            .map(|own| (own[2] - (4.0 * (own[1] + own[3]) - own[0] - own[4]) / 6.0).abs())
-            .collect();
-        // beside one that stands alone its neighbours are off as well, by less
-        let largest = |row: &usize| {
-            let around = &beside[row.saturating_sub(2)..beside.len().min(row + 3)];
-            around.iter().all(|own| *own <= beside[*row])
-        };
-        let far = (0..beside.len()).filter(|row| beside[*row] > ALONE * deviation);
-        far.filter(largest)
-            .map(|row| (row + 2, beside[row]))
-            .collect()
+        self.deviation()
+            .map_or(Vec::new(), |deviation| alone(values, deviation))
     }
 
     fn rms(&self) -> Result<f64, String> {
@@ -375,6 +361,23 @@ impl Compared {
         let share = within as f64 / residuals.len() as f64;
         (share.is_finite().then_some(share)).ok_or_else(|| NOTHING_COMMON.to_string())
     }
+}
+
+/// Rows of the samples that stand alone, and by how much: beside the cubic through two neighbours on each side by more than noise.
+fn alone(values: &[f64], deviation: f64) -> Vec<(usize, f64)> {
+    let five = values.windows(5);
+    let beside: Vec<f64> = five
+        .map(|own| (own[2] - (4.0 * (own[1] + own[3]) - own[0] - own[4]) / 6.0).abs())
+        .collect();
+    // beside one that stands alone its neighbours are off as well, by less
+    let largest = |row: &usize| {
+        let around = &beside[row.saturating_sub(2)..beside.len().min(row + 3)];
+        around.iter().all(|own| *own <= beside[*row])
+    };
+    let far = (0..beside.len()).filter(|row| beside[*row] > ALONE * deviation);
+    far.filter(largest)
+        .map(|row| (row + 2, beside[row]))
+        .collect()
 }
 
 /// Least and largest value.

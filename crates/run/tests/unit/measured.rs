@@ -164,6 +164,7 @@ fn errors_of_features_are_as_large_as_stated() {
         (Kind::Rounded(3.0, 0.1), 1e-4),
     ] {
         let mut errors: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
+        let mut apart_by: BTreeMap<&str, Vec<f64>> = BTreeMap::new();
         let mut deviation = 0.0;
         for _ in 0..SEEDS {
             seed += 1;
@@ -178,6 +179,14 @@ fn errors_of_features_are_as_large_as_stated() {
                 };
                 let own = of(&found, "measured").zip(of(&found, "uncertainty"));
                 let own = own.zip(of(&truth, "measured"));
+                // the run is the truth: its own features by the same estimator differ by noise alone
+                let apart = of(&found, "difference").zip(of(&found, "difference_uncertainty"));
+                if let Some((apart, uncertainty)) = apart {
+                    apart_by
+                        .entry(feature)
+                        .or_default()
+                        .push(apart / uncertainty);
+                }
                 if let Some(((value, uncertainty), truth)) = own {
                     let mut error = value - truth;
                     if feature.contains("phase") {
@@ -186,6 +195,14 @@ fn errors_of_features_are_as_large_as_stated() {
                     errors.entry(feature).or_default().push(error / uncertainty);
                 }
             }
+        }
+        for (feature, apart) in apart_by {
+            let count = apart.len() as f64;
+            let mean = apart.iter().sum::<f64>() / count;
+            let rms = (apart.iter().map(|own| own * own).sum::<f64>() / count).sqrt();
+            let case =
+                format!("{kind:?} at {interval}, {feature} apart: mean {mean:.2}, rms {rms:.2}");
+            assert!(mean.abs() < 0.5 && rms < 1.5, "{case}");
         }
         for (feature, errors) in errors {
             let count = errors.len() as f64;
@@ -360,6 +377,16 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
         let known: Vec<_> = codes.iter().filter(|code| wrong.contains(code)).collect();
         assert_eq!(known, [&"AB2351"], "{scale} {offset}");
     }
+
+    // one sample before the release is no noise of the channel
+    let (_, glitch) = damaged(&scenario, &run, |curve| {
+        if curve.name == "rotor.y" {
+            let before = curve.times.partition_point(|time| *time < -0.01);
+            curve.values[before] += 500e-6;
+        }
+    });
+    let deviation = |of: &BTreeMap<String, f64>| of["measured.rotor.y.deviation"];
+    assert!((deviation(&glitch) / deviation(&whole) - 1.0).abs() < 0.05);
 
     // a file that ends before the first impact
     let contact = whole["measured.bearing.contact.force.first_contact.measured"];
