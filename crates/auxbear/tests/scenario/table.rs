@@ -88,6 +88,15 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.cage.guidance=balls",
             "mount.tilt_stiffness=1 N m/rad",
         ],
+        _ if path.starts_with("bearing.preload_spring_") => &[
+            "bearing.fidelity=spatial",
+            "bearing.type=angular contact",
+            "bearing.contact_angle=15 deg",
+            "bearing.arrangement=DB",
+            "bearing.row_spacing=12 mm",
+            "bearing.axial_preload=100 N",
+            "bearing.preload_spring_stiffness=1e6 N/m",
+        ],
         "bearing.row_spacing" => &[
             "bearing.fidelity=spatial",
             "bearing.type=angular contact",
