@@ -191,7 +191,14 @@ fn a_preload_by_a_spring_follows_the_load() {
     let place = Place::new();
     let of = |axial: &str, more: &[&str]| {
         let axial = format!("--axial={axial}");
-        let words = ["7010 C DB", "--preload", "100 N", "--speed", "9000 rpm", &axial];
+        let words = [
+            "7010 C DB",
+            "--preload",
+            "100 N",
+            "--speed",
+            "9000 rpm",
+            &axial,
+        ];
         call(&place, &[&words, more].concat())
     };
     let json = |axial: &str, more: &[&str]| -> Value {

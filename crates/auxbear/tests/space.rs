@@ -249,7 +249,10 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
     let sprung = run(&[&heats[..], &springs[..]].concat());
     assert!(number(&sprung, "energy_residual").abs() < 1e-6);
     let grown = number(&sprung, "lower.largest_preload") - 90.0;
-    assert!(grown > 0.0 && grown < 0.05 * (most - 90.0), "{grown} {most}");
+    assert!(
+        grown > 0.0 && grown < 0.05 * (most - 90.0),
+        "{grown} {most}"
+    );
     // the masses given are those of one row: steel of both rings keeps the heat
     let rise = number(&hot, "lower.peak_inner_race_temperature") - 298.15;
     let kept = number(&hot, "lower.stored_heat_in_inner_race");
@@ -348,13 +351,14 @@ fn a_spring_keeps_a_row_pressed_that_a_distance_would_free() {
         let all: Vec<&str> = all.chain(sets.iter().map(String::as_str)).collect();
         ran(FLYWHEEL, &all)
     };
-    let unloaded = |run: &auxbear::Outcome| match &run.quantity("lower.row_unloaded_times").unwrap().value
-    {
-        Value::List(times) => times.iter().filter(|time| time.is_finite()).count(),
-        _ => panic!("no list"),
-    };
+    let unloaded =
+        |run: &auxbear::Outcome| match &run.quantity("lower.row_unloaded_times").unwrap().value {
+            Value::List(times) => times.iter().filter(|time| time.is_finite()).count(),
+            _ => panic!("no list"),
+        };
     let forces = |run: &auxbear::Outcome| {
-        ["smallest", "largest"].map(|which| number(run, &format!("lower.{which}_preload_spring_force")))
+        ["smallest", "largest"]
+            .map(|which| number(run, &format!("lower.{which}_preload_spring_force")))
     };
     // the shaft lands on the lower face: towards the start. Rows that stand take the thrust, the spring follows by some micrometres
     let soft = "bearing.preload_spring_stiffness=2e5 N/m";
@@ -362,7 +366,10 @@ fn a_spring_keeps_a_row_pressed_that_a_distance_would_free() {
     assert!(number(&kept, "energy_residual").abs() < 1e-5);
     assert_eq!([unloaded(&run(&[])), unloaded(&kept)], [1, 0]);
     let [least, most] = forces(&kept);
-    assert!(least > 70.0 && least < 90.0 && most < 95.0, "{least} {most}");
+    assert!(
+        least > 70.0 && least < 90.0 && most < 95.0,
+        "{least} {most}"
+    );
     let column = |name: &str| &kept.column(name).unwrap().values;
     let (slid, force) = (
         column("lower.bearing.sliding_outer_race.z"),
@@ -381,16 +388,23 @@ fn a_spring_keeps_a_row_pressed_that_a_distance_would_free() {
     let deeper = place(&kept) - place(&sunk);
     assert!(deeper > 0.08e-3, "{deeper}");
     // stiff, it is free before the row is
-    let freed = run(&["bearing.preload_spring_stiffness=1e8 N/m", "bearing.preload_spring_side=end"]);
+    let freed = run(&[
+        "bearing.preload_spring_stiffness=1e8 N/m",
+        "bearing.preload_spring_side=end",
+    ]);
     assert!(freed.warnings.iter().any(|own| own.code == "AB2418"));
     assert_eq!((unloaded(&freed), forces(&freed)[0]), (1, 0.0));
     // what is not computed
     for (set, needed) in [
-        ("bearing.preload_spring_mass=9 kg", "less than mount.moving_mass"),
+        (
+            "bearing.preload_spring_mass=9 kg",
+            "less than mount.moving_mass",
+        ),
         ("bearing.arrangement=DT", "stand against each other"),
         ("mount.tilt_stiffness=1e4 N m/rad", "keep their orientation"),
     ] {
-        let sets = [soft, "bearing.cage.guidance=balls", set].map(|set| format!("auxiliary_bearing.lower.{set}"));
+        let sets = [soft, "bearing.cage.guidance=balls", set]
+            .map(|set| format!("auxiliary_bearing.lower.{set}"));
         refused(&sets.each_ref().map(String::as_str), needed);
     }
 }

@@ -233,7 +233,8 @@ fn at_rest_every_force_is_the_slope_of_the_potential() {
                 }
                 // rings that slide are a part of the outer ring
                 let sliding = machine.spring.filter(|_| body == 2 && k == 2);
-                let beside = sliding.map_or(0.0, |own| own.mass * rate[machine.first_sliding() + 1]);
+                let beside =
+                    sliding.map_or(0.0, |own| own.mass * rate[machine.first_sliding() + 1]);
                 if !(held || tied && body > 2) {
                     compare(
                         mass * rate[at + 3 + k] + beside,

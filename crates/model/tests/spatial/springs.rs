@@ -34,7 +34,10 @@ fn on_spring(stiffness: f64) -> (Vec<StaticRow>, PreloadSpring<f64>) {
 
 /// Thrust of a row on the inner ring, N.
 fn thrust(balls: &[BallEquilibrium]) -> f64 {
-    balls.iter().map(|ball| ball.loads[0] * ball.axial_share).sum()
+    balls
+        .iter()
+        .map(|ball| ball.loads[0] * ball.axial_share)
+        .sum()
 }
 
 const AT_SPEED: Running = Running {
@@ -52,7 +55,9 @@ fn a_spring_is_a_distance_where_it_is_stiff_and_a_force_where_it_is_soft() {
             moment: [0.2, -0.1],
         };
         for running in [REST, AT_SPEED] {
-            let rigid = StaticRows::from(rows.clone()).settle(&load, &running).unwrap();
+            let rigid = StaticRows::from(rows.clone())
+                .settle(&load, &running)
+                .unwrap();
             let stiff = StaticRows {
                 rows: rows.clone(),
                 spring: Some(spring),
@@ -63,10 +68,16 @@ fn a_spring_is_a_distance_where_it_is_stiff_and_a_force_where_it_is_soft() {
             let size = |of: &[f64]| of.iter().fold(0.0, |most: f64, own| most.max(own.abs()));
             for k in 0..5 {
                 let part = if k < 3 { &a[..3] } else { &a[3..] };
-                assert!((a[k] - b[k]).abs() < 1e-9 * size(part), "{force:?} {a:?} {b:?}");
+                assert!(
+                    (a[k] - b[k]).abs() < 1e-9 * size(part),
+                    "{force:?} {a:?} {b:?}"
+                );
                 for j in 0..5 {
                     let scale = (k_a[k][k] * k_a[j][j]).abs().sqrt();
-                    assert!((k_a[k][j] - k_b[k][j]).abs() < 1e-8 * scale, "{force:?} {k} {j}");
+                    assert!(
+                        (k_a[k][j] - k_b[k][j]).abs() < 1e-8 * scale,
+                        "{force:?} {k} {j}"
+                    );
                 }
             }
         }
@@ -77,11 +88,19 @@ fn a_spring_is_a_distance_where_it_is_stiff_and_a_force_where_it_is_soft() {
         rows,
         spring: Some(spring),
     };
-    for (load, running) in [(150.0, REST), (600.0, REST), (-0.9 * preload, REST), (300.0, AT_SPEED)] {
+    for (load, running) in [
+        (150.0, REST),
+        (600.0, REST),
+        (-0.9 * preload, REST),
+        (300.0, AT_SPEED),
+    ] {
         let found = pair.settle(&axial(load), &running).unwrap();
         let [fixed, sliding] = [0, 1].map(|row| thrust(&found.rows[row]));
         assert!((sliding / preload + 1.0).abs() < 1e-9, "{load}: {sliding}");
-        assert!((fixed / (load + preload) - 1.0).abs() < 1e-9, "{load}: {fixed}");
+        assert!(
+            (fixed / (load + preload) - 1.0).abs() < 1e-9,
+            "{load}: {fixed}"
+        );
         // nothing but the row that stands is stiff along the axis
         let alone = StaticRows::from(vec![pair.rows[0]]);
         let alone = alone.at(found.displacement, &running).unwrap();
@@ -118,7 +137,10 @@ fn a_pair_on_a_spring_yields_as_its_rows_and_the_spring_say() {
         for i in 0..5 {
             let slope = -(after[i] - before[i]) / (2.0 * step);
             let size = (found.stiffness[i][i] * found.stiffness[k][k]).sqrt();
-            assert!((slope - found.stiffness[i][k]).abs() < 1e-4 * size, "{i} {k}");
+            assert!(
+                (slope - found.stiffness[i][k]).abs() < 1e-4 * size,
+                "{i} {k}"
+            );
         }
     }
     // against the spring, once the row that stands is free: row and spring one behind the other
@@ -169,6 +191,9 @@ fn what_closes_a_pair_changes_the_force_of_its_spring_alone() {
         let slope = |spring| (preload(step, spring) - preload(-step, spring)) / (2.0 * step);
         let (rigid, sprung) = (slope(None), slope(Some(&spring)));
         let expected = 1.0 / (1.0 / stiffness + 1.0 / rigid);
-        assert!((sprung / expected - 1.0).abs() < 1e-4, "{stiffness} {sprung} {expected}");
+        assert!(
+            (sprung / expected - 1.0).abs() < 1e-4,
+            "{stiffness} {sprung} {expected}"
+        );
     }
 }

@@ -133,10 +133,16 @@ impl Context<'_> {
             return refuse("bearing.cage.guidance", needed);
         }
         // between the bore and the balls: the face of the inner ring
-        let pitch = part.bearing.as_ref().map_or(f64::INFINITY, |own| own.pitch_diameter);
+        let pitch = part
+            .bearing
+            .as_ref()
+            .map_or(f64::INFINITY, |own| own.pitch_diameter);
         let ring = 0.5 * part.contact.bore_diameter..0.5 * pitch;
         if let Some(radius) = part.contact.faces.radius.filter(|own| !ring.contains(own)) {
-            let found = format!("{:.2} mm, where no shoulder meets a face of the inner ring", 1e3 * radius);
+            let found = format!(
+                "{:.2} mm, where no shoulder meets a face of the inner ring",
+                1e3 * radius
+            );
             let needed = format!(
                 "{:.2} to {:.2} mm is needed, between the bore and the balls",
                 1e3 * ring.start,

@@ -3,14 +3,19 @@
 use super::{Document, note, paragraph, words};
 use crate::page::escape_text as plain;
 use crate::study::cells::{amount, cell, rows};
-use outcome::{Severity, Value};
+use outcome::{Severity, Value, Verdict, limits};
+use problem::explain;
+use scenario::Limit;
 
+/// Warnings of the linear analysis that whirl is possible.
+const WHIRL: [&str; 2] = ["AB2044", "AB2047"];
 /// A run at a level is one at a critical speed that differs by this share at most.
 const AT_LEVEL: f64 = 0.02;
 
 /// What a table of the bearings says of each, by the paths of the keys.
-const OF_BEARINGS: [(&str, &str); 8] = [
+const OF_BEARINGS: [(&str, &str); 9] = [
     ("bearing", "bearing.name"),
+    ("model", "bearing.fidelity"),
     ("type", "bearing.type"),
     ("bore", "contact.bore_diameter"),
     ("radial air clearance", "contact.radial_air_clearance"),
@@ -158,6 +163,27 @@ impl Document<'_> {
         let texts = candidates.filter(|(path, _)| path == "rotor.speed");
         let speeds = texts.filter_map(|(_, text)| units::parse_quantity(text).ok());
         speeds.map(|own| own.value_si.abs()).collect()
+    }
+
+    /// What the linear analysis warns of dry whirl, where a requirement of whirl is met.
+    pub(super) fn whirl_by_analysis(&self) -> Option<String> {
+        let (rotor, _) = self.rotor?;
+        let declared: Vec<_> = run::warnings::declared().collect();
+        let seeks = |limit: &Limit| limits::seeks_whirl(limit, &self.study.known, &declared);
+        let requirements = self.requirements();
+        let mut met = requirements
+            .iter()
+            .filter(|own| own.verdict == Verdict::Pass);
+        if !met.any(|own| seeks(own.limit)) {
+            return None;
+        }
+        let mut warned = rotor.warnings.iter();
+        let warned = warned.find(|own| WHIRL.contains(&own.code))?;
+        Some(format!(
+            "No whirl in these runs, and by the linear analysis it is possible: <code>{}</code> {}, section 3",
+            warned.code,
+            plain(explain::title(warned.code))
+        ))
     }
 
     /// That no level is as fast as the machine of the file.

@@ -301,7 +301,8 @@ impl Document<'_> {
         out.push_str(&self.without_limit());
         out.push_str(&self.ends_turning());
         out.push_str(&self.gravest());
-        out.push_str(&self.first_table(&requirements));
+        let verdicts = self.first_table(&requirements);
+        let _ = writeln!(out, "<div class=\"verdicts\">{verdicts}</div>");
         out.push_str(&note(
             "Met: every run of every case in which it is required holds the bound; of a requirement with a share so many do, and the value is the one that just they hold. Not shown: the runs do not decide, or no result answers it. The margin is the distance to the bound as a \
              share of the bound. Verdicts hold for the inputs of this hash alone: when one of them changes, run again.",
@@ -343,6 +344,7 @@ impl Document<'_> {
         let own = [
             self.critical_between_levels(),
             self.slower_than_given(),
+            self.whirl_by_analysis(),
             self.at_screening(),
         ];
         for own in own.into_iter().flatten() {
