@@ -5,6 +5,7 @@ use arrow_array::ffi_stream::FFI_ArrowArrayStream;
 use arrow_array::{Array, ArrayRef, Float64Array, RecordBatch, RecordBatchIterator};
 use arrow_buffer::{NullBuffer, ScalarBuffer};
 use arrow_schema::{ArrowError, DataType, Field, Schema};
+pub use auxbear::study::table::Column;
 use auxbear::study::table::Table as Members;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyKeyError, PyRuntimeError};
@@ -12,14 +13,6 @@ use pyo3::prelude::*;
 use pyo3::types::PyCapsule;
 use std::collections::HashMap;
 use std::sync::Arc;
-
-/// A column before it becomes part of a table.
-pub struct Column {
-    pub name: String,
-    pub unit: String,
-    pub meaning: String,
-    pub values: Vec<f64>,
-}
 
 /// Columns of equal length, each with name, unit and meaning.
 #[pyclass(frozen)]
@@ -46,13 +39,7 @@ impl Table {
             meaning: "number of the member".to_string(),
             values: numbers.collect(),
         };
-        let columns = members.columns.into_iter().map(|column| Column {
-            name: column.name,
-            unit: column.unit,
-            meaning: column.meaning,
-            values: column.values,
-        });
-        Table::of(std::iter::once(first).chain(columns))
+        Table::of(std::iter::once(first).chain(members.columns))
     }
 
     /// The values of each column, copied.

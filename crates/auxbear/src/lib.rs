@@ -127,8 +127,8 @@ pub use ::catalogue::{Bearing, Catalogue, bearings};
 pub use ::import::{Imported, import};
 pub use ::outcome::limits::check as check_limits;
 pub use ::outcome::{
-    Amount, Attached, Attachment, Column, Contact, Judged, Members, Options, Outcome, Picture,
-    Quantity, Severity, Spread, Stop, Value, Verdict, Warning, Work,
+    Amount, Attached, Attachment, Column, Contact, Judged, Options, Outcome, Picture, Quantity,
+    Severity, Spread, Stop, Value, Verdict, Warning, Work,
 };
 pub use ::problem::explain::explain;
 pub use ::problem::{Code, Place, Problem};

@@ -72,7 +72,7 @@ fn machines_of_an_ensemble_depend_on_seed_and_number_alone() {
     // other threads, other lanes, other company
     assert_eq!(whole.members, ensemble(40, 3).members);
     let few = ensemble(7, 2).members;
-    assert!((0..7).all(|k| whole.members.member(k).eq(few.member(k))));
+    assert!((0..7).all(|k| whole.members.row(k).eq(few.row(k))));
 }
 
 #[test]

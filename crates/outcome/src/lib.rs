@@ -9,13 +9,16 @@ pub mod joined;
 pub mod limits;
 pub mod list;
 pub mod options;
+pub mod table;
 mod whirl;
 
 pub use host::start_pool;
 pub use options::Options;
+use problem::Problem;
 pub use problem::warning::{Amount, Scope, Severity, Warning};
 use scenario::Limit;
 use serde::Serialize;
+use table::Table;
 
 const NOT_FINITE: &str = "what was computed is not a finite number";
 
@@ -39,7 +42,7 @@ pub struct Outcome {
     /// What it took.
     pub work: Work,
     /// Named results of each member, when repeated; member 0 is the unperturbed run.
-    pub members: Members,
+    pub members: Table,
     /// What each of these members drew: paths with their values, as a file has them; empty where none varies the machine.
     pub drawn: Vec<Vec<(String, String)>>,
     /// Numbers that only the pictures need, of each bearing: one at least.
@@ -51,6 +54,14 @@ pub struct Outcome {
 }
 
 impl Outcome {
+    /// What comes of a machine that could not be built.
+    pub fn not_built(problem: &Problem) -> Self {
+        Outcome {
+            stop: Stop::new("not built", 0.0, problem.to_string()),
+            ..Outcome::default()
+        }
+    }
+
     /// The result of a name, such as `drive_end.peak_contact_force`.
     pub fn quantity(&self, name: &str) -> Option<&Quantity> {
         let name = scenario::present_name(name);
@@ -138,78 +149,6 @@ pub fn counted_from(results: &[Quantity]) -> Option<f64> {
         Value::Number(time) => Some(time),
         _ => None,
     })
-}
-
-/// Named results of the members of a repeated run: each name once, with a column of values.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Members {
-    /// Time at which each of them ended, s.
-    pub end: f64,
-    count: usize,
-    /// A member without a value has infinity: no result is.
-    columns: Vec<(String, Vec<f64>)>,
-}
-
-impl Members {
-    /// Of members that all ended at one time, s.
-    pub fn ended_at(end: f64) -> Self {
-        Members {
-            end,
-            ..Members::default()
-        }
-    }
-    /// Adds a member with its results; words and lists are left out.
-    pub fn push(&mut self, results: &[Quantity]) {
-        let mut next = 0;
-        for result in results {
-            let value = match result.value {
-                Value::Number(value) => value,
-                Value::None { .. } => f64::INFINITY,
-                Value::List(_) | Value::Text(_) => continue,
-            };
-            // members have their results in one order, but for kinds that have others
-            let named = |of: &(String, Vec<f64>)| of.0 == result.name;
-            let at = match self.columns.get(next).is_some_and(named) {
-                true => next,
-                false => (self.columns.iter().position(named)).unwrap_or_else(|| {
-                    let before = vec![f64::INFINITY; self.count];
-                    self.columns.push((result.name.clone(), before));
-                    self.columns.len() - 1
-                }),
-            };
-            self.columns[at].1.push(value);
-            next = at + 1;
-        }
-        self.count += 1;
-        for (_, values) in &mut self.columns {
-            values.resize(self.count, f64::INFINITY);
-        }
-    }
-    /// Number of members.
-    pub fn len(&self) -> usize {
-        self.count
-    }
-    /// True where nothing was repeated.
-    pub fn is_empty(&self) -> bool {
-        self.count == 0
-    }
-    /// A result of all members; none of each where no member has it.
-    pub fn values(&self, name: &str) -> Vec<Option<f64>> {
-        let column = self.columns.iter().find(|(known, _)| known == name);
-        match column {
-            Some((_, values)) => values.iter().copied().map(finite).collect(),
-            None => vec![None; self.count],
-        }
-    }
-    /// The results of a member.
-    pub fn member(&self, k: usize) -> impl Iterator<Item = (&str, Option<f64>)> {
-        let columns = self.columns.iter();
-        columns.map(move |(name, values)| (name.as_str(), finite(values[k])))
-    }
-}
-
-fn finite(value: f64) -> Option<f64> {
-    value.is_finite().then_some(value)
 }
 
 /// A result in one of its kinds.

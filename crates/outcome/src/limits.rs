@@ -188,7 +188,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
                 ("", values, why)
             }
             (None, Some(quantity)) => {
-                let (values, why) = values_of(quantity, limit.bound, outcome);
+                let (values, why) = values_of(quantity, limit, outcome);
                 (quantity.unit, values, why)
             }
             (None, None) => ("", vec![None], "this run has no such result".to_string()),
@@ -221,27 +221,15 @@ pub fn withheld(judged: Judged) -> Judged {
 
 /// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while
 /// the run lasted, which is longer than the bound, is infinite: whenever it comes, the bound is passed.
-fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
+fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Option<f64>>, String) {
+    let bound = limit.bound;
     let early = || outcome.stop.text.trim_end_matches('.').to_string();
     let from = crate::counted_from(&outcome.quantities).filter(|_| quantity.awaited);
     let beyond = |end: f64| (end - from? > bound).then_some(f64::INFINITY);
-    let untouched = quantity.of_contacts.then_some(0.0);
-    // a race that the rotor does not touch comes to no speed, and need not
-    let contacts = contacts_of(&quantity.name);
-    let spared = |contacts: Option<f64>| (contacts == Some(0.0)).then_some(0.0);
     let asked = outcome.work.members;
     if asked > 1 {
         let members = &outcome.members;
-        let values = members.values(&quantity.name).into_iter();
-        let count = contacts.map(|name| members.values(&name));
-        let count = |member: usize| *count.as_ref()?.get(member)?;
-        let mut values: Vec<Option<f64>> = values
-            .enumerate()
-            .map(|(member, value)| {
-                let spared = spared(count(member));
-                value.or(spared).or(beyond(members.end)).or(untouched)
-            })
-            .collect();
+        let mut values = members.limited(&quantity.name, bound, quantity.of_contacts);
         let why = match values.len() < asked {
             true => early(),
             false => "it does not exist in these".to_string(),
@@ -252,8 +240,9 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
     match (&quantity.value, outcome.stop.complete()) {
         (Value::None { .. }, true) if quantity.of_contacts => (vec![Some(0.0)], String::new()),
         (Value::None { .. }, true)
-            if spared(contacts.and_then(|name| outcome.number(&name))).is_some() =>
+            if contacts_of(&quantity.name).and_then(|name| outcome.number(&name)) == Some(0.0) =>
         {
+            // it comes to no speed, and need not
             (vec![Some(0.0)], "the rotor does not touch it".to_string())
         }
         (Value::None { why }, _) => match (beyond(outcome.stop.time), quantity.awaited) {
@@ -261,6 +250,12 @@ fn values_of(quantity: &Quantity, bound: f64, outcome: &Outcome) -> (Vec<Option<
             (None, true) => (vec![None], format!("{why}, which is not past the bound")),
             (None, false) => (vec![None], why.clone()),
         },
+        // what is broken when a run stops stays so
+        (Value::Number(value), false)
+            if !outcome.stop.interrupted() && !limit.side.holds(sized(limit, *value), bound) =>
+        {
+            (vec![Some(*value)], early())
+        }
         (_, false) => (vec![None], early()),
         (Value::Number(value), true) => (vec![Some(*value)], String::new()),
         (Value::Text(_) | Value::List(_), true) => {

@@ -37,6 +37,17 @@ pub(super) struct View<'a> {
     pub values: &'a [f64],
 }
 
+impl<'a> From<&'a PageColumn> for View<'a> {
+    fn from(column: &'a PageColumn) -> Self {
+        View {
+            name: &column.name,
+            unit: &column.unit,
+            meaning: &column.meaning,
+            values: &column.values,
+        }
+    }
+}
+
 /// Writes the columns of a history, which have equal length.
 pub(super) fn write(file: &File, columns: &[Column]) -> Result<(), ParquetError> {
     let views: Vec<View> = (columns.iter())

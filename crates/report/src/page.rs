@@ -7,6 +7,7 @@
 
 use super::closely;
 use super::page_summary::for_page;
+pub use outcome::table::Column as PageColumn;
 use recording::file::parquet::arrow_schema::push_base64;
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -32,19 +33,6 @@ pub struct PageRun {
     pub scenario_toml: String,
     /// The time histories; the column `time` is the common axis.
     pub columns: Vec<PageColumn>,
-}
-
-/// One time history.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct PageColumn {
-    /// Channel name, such as `bearing.contact.force`.
-    pub name: String,
-    /// SI unit of the values.
-    pub unit: String,
-    /// What the channel is, in a few words.
-    pub meaning: String,
-    /// The values, one a row.
-    pub values: Vec<f64>,
 }
 
 const TEMPLATE: &str = include_str!("page/page.html");

@@ -2,9 +2,9 @@
 //!
 //! No number in it is infinite or not-a-number: such a quantity is `null` with the reason.
 
+use outcome::table::Table;
 use outcome::{
-    Amount, Contact, Judged, Members, Outcome, Picture, Quantity, Spread, Stop, Value, Warning,
-    Work,
+    Amount, Contact, Judged, Outcome, Picture, Quantity, Spread, Stop, Value, Warning, Work,
 };
 use scenario::{Provenance, ResolvedValue, Scenario};
 use serde::{Serialize, Serializer};
@@ -126,7 +126,7 @@ struct Summary<'a> {
 }
 
 /// The first so many members as objects, of which one exists at a time.
-struct First<'a>(&'a Members, usize);
+struct First<'a>(&'a Table, usize);
 
 impl First<'_> {
     fn is_empty(&self) -> bool {
@@ -136,7 +136,7 @@ impl First<'_> {
 
 impl Serialize for First<'_> {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        serializer.collect_seq((0..self.1).map(|k| Named(self.0.member(k).collect())))
+        serializer.collect_seq((0..self.1).map(|k| Named(self.0.row(k).collect())))
     }
 }
 

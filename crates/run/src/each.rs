@@ -2,25 +2,14 @@
 
 use crate::measured::Curve;
 use crate::{Machine, build, built, known};
+use outcome::Outcome;
 use outcome::host::{self, in_pool};
 use outcome::options::Options;
-use outcome::{Outcome, Stop};
-use problem::{Problem, Result};
+use problem::Result;
 use scenario::Scenario;
 use simulate::drop::each::{self, One};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-fn not_built(problem: &Problem) -> Box<Outcome> {
-    Box::new(Outcome {
-        stop: Stop {
-            reason: "not built",
-            time: 0.0,
-            text: problem.to_string(),
-        },
-        ..Outcome::default()
-    })
-}
 
 /// Runs each scenario once; drops of one kind share lanes, but for those beside measured channels, whose histories would fill the memory.
 /// A scenario that could not be read or built is a result that says
@@ -30,44 +19,51 @@ pub fn each(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
 }
 
 fn of_pool(scenarios: &[Result<Scenario>], options: &Options) -> Vec<Outcome> {
-    let done = AtomicUsize::new(0);
     let curves = curves_of(scenarios);
-    let stages = host::each(scenarios, |_, scenario| {
-        let stage = staged(scenario, &curves, options);
+    let stage = |k: usize| stage(&scenarios[k], &curves, options);
+    let after = |one: &One, made: Outcome| Outcome {
+        warnings: known::with_those_before(one.scenario, &one.built.drop, made.warnings),
+        ..made
+    };
+    staged(scenarios.len(), stage, after, options)
+}
+
+/// Runs so many drops, those of one kind in the lanes of each other; a stage gives one, or what came out already.
+pub(crate) fn staged<'a>(
+    count: usize,
+    stage: impl Fn(usize) -> Result<One<'a>, Box<Outcome>> + Sync,
+    after: impl Fn(&One, Outcome) -> Outcome,
+    options: &Options,
+) -> Vec<Outcome> {
+    let done = AtomicUsize::new(0);
+    let all: Vec<usize> = (0..count).collect();
+    let stages = host::each(&all, |_, k| {
+        let stage = stage(*k);
         if stage.is_err() {
             let done = done.fetch_add(1, Ordering::Relaxed) + 1;
-            (options.progress)(done as f64 / scenarios.len() as f64);
+            (options.progress)(done as f64 / count as f64);
         }
         stage
     });
     let before = done.into_inner();
-    let mut places = Vec::new();
     let mut drops = Vec::new();
     let mut list: Vec<Option<Outcome>> = Vec::new();
-    for (k, stage) in stages.into_iter().enumerate() {
-        list.push(match stage {
-            Err(outcome) => Some(*outcome),
-            Ok(one) => {
-                places.push(k);
-                drops.push(one);
-                None
-            }
-        });
+    for stage in stages {
+        list.push(stage.map(|one| drops.push(one)).err().map(|made| *made));
     }
     let progress = |fraction: f64| {
         let here = before as f64 + fraction * drops.len() as f64;
-        (options.progress)(here / scenarios.len() as f64);
+        (options.progress)(here / count as f64);
     };
     let plan = Options {
         progress: &progress,
         ..*options
     };
-    let made = each::run(&drops, &plan).into_iter().zip(&drops);
-    for (place, (mut outcome, one)) in places.into_iter().zip(made) {
-        outcome.warnings =
-            known::with_those_before(one.scenario, &one.built.drop, outcome.warnings);
-        list[place] = Some(outcome);
+    let mut made = drops.iter().zip(each::run(&drops, &plan));
+    for place in list.iter_mut().filter(|place| place.is_none()) {
+        *place = made.next().map(|(one, made)| after(one, made));
     }
+    drop(made);
     host::discard(drops);
     list.into_iter().flatten().collect()
 }
@@ -80,17 +76,18 @@ fn curves_of(scenarios: &[Result<Scenario>]) -> Arc<Vec<Curve>> {
 }
 
 /// Builds a drop; runs anything else, and a drop beside measured channels, at once, on the thread that has it.
-fn staged<'a>(
+fn stage<'a>(
     scenario: &'a Result<Scenario>,
     curves: &Arc<Vec<Curve>>,
     options: &Options,
 ) -> Result<One<'a>, Box<Outcome>> {
     let scenario = match scenario {
         Ok(scenario) => scenario,
-        Err(problem) => return Err(not_built(problem)),
+        Err(problem) => return Err(Outcome::not_built(problem).into()),
     };
     if let Some(drop) = scenario.drop().filter(|_| scenario.measured.is_empty()) {
-        return each::one(scenario, drop).map_err(|problem| not_built(&scenario.locate(problem)));
+        return each::one(scenario, drop)
+            .map_err(|problem| Box::new(Outcome::not_built(&scenario.locate(problem))));
     }
     let unwatched = Options {
         threads: Some(1),
@@ -111,6 +108,6 @@ fn staged<'a>(
             files: Vec::new(),
             ..machine.run(&unwatched)
         }),
-        Err(problem) => not_built(&problem),
+        Err(problem) => Outcome::not_built(&problem).into(),
     })
 }

@@ -47,7 +47,7 @@ pub struct Machine<'a> {
 
 /// The machine of each system.
 enum Built<'a> {
-    Drop(Arc<drop::build::Built>, Vec<Arc<drop::repetition::Other>>),
+    Drop(Arc<drop::build::Built>, Vec<Arc<study::repeat::Other>>),
     SpinUp(&'a SpinUp, Box<rig::run::Built>),
     Torque(Box<torque::Asked<'a>>),
     Signals(Arc<signals::Asked>),
@@ -76,7 +76,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
 fn built(scenario: &Scenario) -> Result<Machine<'_>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
-            let others = drop::repetition::others(scenario, &built)?;
+            let others = study::repeat::others(scenario, &built.drop)?;
             Ok(Built::Drop(Arc::new(built), others))
         }),
         System::SpinUp(of) => {
@@ -195,10 +195,10 @@ impl Machine<'_> {
     fn dropped(
         &self,
         built: &Arc<drop::build::Built>,
-        others: &[Arc<drop::repetition::Other>],
+        others: &[Arc<study::repeat::Other>],
         options: &Options,
     ) -> Outcome {
-        let mut outcome = drop::repetition::run(self.scenario, built, others, options);
+        let mut outcome = study::repeat::run(self.scenario, built, others, options);
         if let Some(shaft) = &built.drop.shaft {
             let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
             outcome.quantities.extend(changes);

@@ -84,7 +84,7 @@ pub(crate) fn stop(ending: &Ending) -> Stop {
 }
 
 /// What the user ended.
-pub(crate) fn interrupted(time: f64) -> Stop {
+pub fn interrupted(time: f64) -> Stop {
     Stop {
         reason: "interrupted",
         time,

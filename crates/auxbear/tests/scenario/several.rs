@@ -255,7 +255,7 @@ fn repeated_runs_vary_any_value_by_its_path() {
             .collect();
         let sets: Vec<&str> = sets.iter().map(String::as_str).collect();
         let alone = outcome(&text, &sets);
-        let mut member = one.members.member(k);
+        let mut member = one.members.row(k);
         let member = member.find(|(name, _)| *name == "first_impact_force");
         let (member, alone) = (
             member.unwrap().1.unwrap(),
@@ -266,7 +266,7 @@ fn repeated_runs_vary_any_value_by_its_path() {
     // the same members whatever the company
     let few = outcome(&text, &["rotor.mass=8 kg", "repeat.count=5"]);
     assert_eq!(few.drawn[..], one.drawn[..5]);
-    assert!((0..5).all(|k| few.members.member(k).eq(one.members.member(k))));
+    assert!((0..5).all(|k| few.members.row(k).eq(one.members.row(k))));
     // the resolved file varies the same
     let again = read(&scenario.resolved.toml(), &[]).expect("it reads");
     assert_eq!(again.vary, scenario.vary);

@@ -23,7 +23,7 @@ use outcome::host::{self, bounded};
 use problem::{Code, Problem, Result};
 use run::Options;
 use run::study::answer::Answer;
-use run::study::table::{Table, Warned};
+use run::study::table::{Table, Warned, warned};
 use run::study::{PART, Study};
 use scenario::StudyFile;
 use std::fs::{self, File, TryLockError};
@@ -292,7 +292,7 @@ impl Directory {
         text_file(&self.path.join(REPORT), &html)?;
         Ok(Done {
             failed: table.failed.len(),
-            warned: table.warned(),
+            warned: warned(&table),
             answer,
             complete,
         })

@@ -8,7 +8,7 @@ use crate::picture::{Panel, dot, line, text};
 use outcome::Severity;
 use run::study::Study;
 use run::study::answer::{Answer, Sensitivity};
-use run::study::table::{Column, Table, Warned};
+use run::study::table::{self, Column, Table, Warned};
 use scenario::{Limit, Side};
 use statistics::design::Design;
 use std::fmt::Write;
@@ -82,7 +82,7 @@ fn warned(table: &Table) -> String {
             warned.share(all)
         )
     };
-    let list: String = table.warned().iter().map(row).collect();
+    let list: String = table::warned(table).iter().map(row).collect();
     match list.is_empty() {
         true => list,
         false => format!(

@@ -7,7 +7,7 @@ use parquet::file::reader::{FileReader, SerializedFileReader};
 use problem::open_file;
 use problem::{Code, Problem, Result};
 use run::study::Study;
-use run::study::table::{Column, Table};
+use run::study::table::Table;
 use scenario::Distribution;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -28,12 +28,7 @@ pub(super) fn write(file: impl Write + Send, table: &Table) -> Result<(), Parque
         meaning: "number of the member",
         values: &members,
     }];
-    views.extend(table.columns.iter().map(|column| View {
-        name: &column.name,
-        unit: &column.unit,
-        meaning: &column.meaning,
-        values: &column.values,
-    }));
+    views.extend(table.columns.iter().map(View::from));
     let reasons = serde_json::to_string(&table.failed)
         .map_err(|error| ParquetError::External(Box::new(error)))?;
     let more = vec![KeyValue::new(FAILED.to_string(), reasons)];
@@ -61,12 +56,7 @@ pub(super) fn read(path: &Path, study: &Study, own: &Range<usize>) -> Result<Tab
         serde_json::from_str(reasons).map_err(|error| damaged(path, error.to_string()))?;
     let file = open_file(path).map_err(|error| damaged(path, error.to_string()))?;
     let columns = history::read(file, path).map_err(|error| damaged(path, error.to_string()))?;
-    let mut columns = columns.into_iter().map(|column| Column {
-        name: column.name,
-        unit: column.unit,
-        meaning: column.meaning,
-        values: column.values,
-    });
+    let mut columns = columns.into_iter();
     let members = columns.next().filter(|column| column.name == MEMBER);
     let members = members.ok_or_else(|| damaged(path, "no column of members"))?;
     let table = Table {

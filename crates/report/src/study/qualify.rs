@@ -201,28 +201,13 @@ impl Directory {
         if place.exists() {
             let damaged = |error: String| part::damaged(&place, error);
             let file = open_file(&place).map_err(|error| damaged(error.to_string()))?;
-            let columns =
-                history::read(file, &place).map_err(|error| damaged(error.to_string()))?;
-            let column = |own: crate::page::PageColumn| Column {
-                name: own.name,
-                unit: own.unit,
-                meaning: own.meaning,
-                values: own.values,
-            };
-            return Ok(columns.into_iter().map(column).collect());
+            return history::read(file, &place).map_err(|error| damaged(error.to_string()));
         }
         (wish.progress)("signals of the test", 0.0, self.study.draws());
         let Some(columns) = self.study.predicted(options) else {
             return Ok(Vec::new());
         };
-        let views: Vec<View> = (columns.iter())
-            .map(|own| View {
-                name: &own.name,
-                unit: &own.unit,
-                meaning: &own.meaning,
-                values: &own.values,
-            })
-            .collect();
+        let views: Vec<View> = columns.iter().map(View::from).collect();
         aside(&place, |file| {
             history::write_table(file, "predicted", &views, Vec::new()).map_err(io_error)
         })?;

@@ -5,7 +5,7 @@ use run::study::Study;
 use run::study::answer::{Answer, Sensitivity};
 use run::study::estimate::Estimate;
 use run::study::selection::Candidate;
-use run::study::table::Table;
+use run::study::table::{Table, warned};
 use serde_json::{Map, Value, json};
 
 /// The summary as text.
@@ -25,7 +25,7 @@ pub(super) fn json(study: &Study, table: &Table, answer: &Answer, complete: bool
             json!({"path": input.vary.path, "distribution": input.vary.distribution_toml(), "unit": input.vary.unit()})
         })
         .collect();
-    let warnings: Vec<Value> = (table.warned().iter())
+    let warnings: Vec<Value> = (warned(table).iter())
         .map(|warned| {
             json!({"code": warned.code, "title": warned.title, "members": warned.members, "first_member": warned.first})
         })

@@ -1,15 +1,12 @@
 //! Members that lie nearest to a limit, run again at design accuracy: both values are kept, and design decides.
 
 use super::Study;
-use super::table::{Column, LATE, STOPPED, Table};
+use super::table::{CONFIRMED, Column, LATE, STOPPED, Table, warned_of};
 use crate::Options;
 use outcome::forbidden::not_evaluated;
 use outcome::list::NOT_GIVEN;
 use outcome::{Value, limits};
 use scenario::Limit;
-
-/// What columns of results at design accuracy begin with.
-pub const CONFIRMED: &str = "confirmed.";
 
 impl Study {
     /// The members nearest to each limit, as many as are to be confirmed, in their order.
@@ -80,57 +77,24 @@ impl Study {
                 }
                 match not_evaluated(forbids, &declared, &known) {
                     Some(_) => vec![None; table.members.len()],
-                    None => table.warned_of(forbids),
+                    None => warned_of(table, forbids),
                 }
             }
             None => {
-                let mut values = self.decisive(table, &limit.quantity, limit.bound);
-                // a race that the rotor does not touch comes to no speed, and need not
-                let contacts = limits::contacts_of(&limit.quantity);
-                let contacts = contacts.map_or(Vec::new(), |name| table.values(&name));
-                for (value, contacts) in values.iter_mut().zip(contacts) {
-                    if contacts == Some(0.0) {
-                        *value = Some(0.0);
-                    }
-                }
-                // what was broken when a run stopped stays so
-                let stopped = table.values(&format!("{STOPPED}{}", limit.quantity));
-                for (value, stopped) in values.iter_mut().zip(stopped) {
-                    let breaks =
-                        |value: &f64| !limit.side.holds(limits::sized(limit, *value), limit.bound);
-                    *value = value.or(stopped.filter(breaks));
-                }
-                let values = values.into_iter();
                 let mut known = self.known.iter();
                 let known = known.find(|known| known.name == limit.quantity);
-                // a member that ended as planned without a contact has none of its loads
-                let untouched = known.filter(|known| known.of_contacts).map(|_| 0.0);
-                let of = |(value, member): (Option<f64>, &usize)| {
-                    let untouched = untouched.filter(|_| !table.failed.contains_key(member));
-                    value.or(untouched).map(|value| limits::sized(limit, value))
-                };
-                values.zip(&table.members).map(of).collect()
+                let of_contacts = known.is_some_and(|known| known.of_contacts);
+                let values = table.limited(&limit.quantity, limit.bound, of_contacts);
+                let sized = |value: f64| limits::sized(limit, value);
+                // what was broken when a run stopped stays so
+                let stopped = table.values(&format!("{STOPPED}{}", limit.quantity));
+                let both = values.into_iter().zip(stopped).map(|(value, stopped)| {
+                    let breaks = |value: &f64| !limit.side.holds(*value, limit.bound);
+                    let stopped = stopped.map(sized).filter(breaks);
+                    value.map(sized).or(stopped)
+                });
+                both.collect()
             }
         }
-    }
-
-    /// A result of each member: at design accuracy where that was confirmed. An instant that did not come while a run lasted is infinite
-    /// where that is past a bound: whenever it comes, it is beyond it.
-    pub(super) fn decisive(&self, table: &Table, name: &str, bound: f64) -> Vec<Option<f64>> {
-        let of = |begin: &str| -> Vec<Option<f64>> {
-            let late = table.values(&format!("{begin}{LATE}{name}")).into_iter();
-            let late = late.map(|lasted| (lasted? > bound).then_some(f64::INFINITY));
-            let values = table.values(&format!("{begin}{name}"));
-            values
-                .into_iter()
-                .zip(late)
-                .map(|(value, late)| value.or(late))
-                .collect()
-        };
-        let design = of(CONFIRMED).into_iter();
-        design
-            .zip(of(""))
-            .map(|(design, screening)| design.or(screening))
-            .collect()
     }
 }

@@ -12,6 +12,7 @@
 //! | [`in_a_row`] | drops in a row, with the wear of those before |
 //! | [`estimate`] | inputs that measured curves determine |
 //! | [`predicted`] | signals of a test with their bands |
+//! | `repeat` | a run that is repeated: perturbed starts, machines that differ |
 
 pub mod answer;
 pub mod confirm;
@@ -20,6 +21,7 @@ pub mod failure_modes;
 pub mod in_a_row;
 pub mod little_known;
 pub mod predicted;
+pub(crate) mod repeat;
 pub mod selection;
 pub mod table;
 
@@ -29,7 +31,7 @@ use problem::{Place, Problem, Result};
 use scenario::{CASE, Distribution, Scenario, StudyFile};
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
-use table::{Column, Row, Table};
+use table::{Column, Table};
 
 /// Members of a part.
 pub const PART: usize = 64;
@@ -60,18 +62,13 @@ fn table_of(
     inputs: Vec<Column>,
     options: &Options,
 ) -> Table {
-    let singles = numbered.zip(crate::each(scenarios, options));
-    let ended = singles.filter(|(_, single)| !single.stop.interrupted());
-    let rows = ended.map(|((member, inputs), single)| Row {
-        member,
-        inputs,
-        whole: single.stop.complete(),
-        time: single.stop.time,
-        why: (!single.stop.complete()).then_some(single.stop.text),
-        results: single.quantities,
-        warnings: single.warnings,
-    });
-    Table::of(inputs, rows.collect())
+    let mut table = Table::of(inputs);
+    for ((member, inputs), outcome) in numbered.zip(crate::each(scenarios, options)) {
+        if !outcome.stop.interrupted() {
+            table.push(member, inputs, &outcome);
+        }
+    }
+    table
 }
 
 /// A study that is ready to run.

@@ -5,7 +5,7 @@
 //! hold their limits.
 
 use super::Study;
-use super::table::{LATE, Table};
+use super::table::{LATE, Table, warned_of};
 use outcome::limits::{self, CONTACTS};
 use outcome::{Judged, Verdict};
 use scenario::notes::NO_QUALIFICATION;
@@ -85,7 +85,7 @@ impl Study {
             own.map(|(row, _)| row).collect()
         };
         let ranked = match rank {
-            Some(_) => self.decisive(table, name, f64::INFINITY),
+            Some(_) => table.decisive(name, f64::INFINITY),
             None => vec![None; table.members.len()],
         };
         let count = self.members() / draws;
@@ -213,7 +213,7 @@ impl Study {
             return Some(why);
         }
         let mut never = NEVER.iter().filter_map(|code| {
-            let warned = table.warned_of(&Forbidden::Code(code.to_string()));
+            let warned = warned_of(table, &Forbidden::Code(code.to_string()));
             let some = rows.iter().filter(|row| warned[**row] == Some(1.0)).count();
             (some > 0)
                 .then(|| format!("what should happen did not in {some} of {draws} draws ({code})"))

@@ -19,3 +19,5 @@ pub(crate) mod traction;
 pub(crate) mod warm;
 pub mod warning_table;
 pub mod warnings;
+
+pub use races::LIFE_BY_POINT;

@@ -21,7 +21,7 @@ use thermal::bearing_network::{INNER_RACE, LUBRICANT, OUTER_RACE};
 
 const SIDES: [&str; 2] = ["inner", "outer"];
 /// How the names of life by points end.
-pub(crate) const LIFE_BY_POINT: &str = "life_share_by_point";
+pub const LIFE_BY_POINT: &str = "life_share_by_point";
 
 /// Share of the life of a bearing by that at the points of its rings.
 pub(crate) fn used_by([inner, outer]: &[Vec<f64>; 2]) -> f64 {

@@ -65,7 +65,7 @@ impl<'a> Setup<'a> {
 pub(crate) struct Context<'a> {
     pub setup: Setup<'a>,
     pub finished: &'a Finished,
-    pub members: usize,
+    pub repeated: bool,
     /// When the rotor came to each of the speeds at which something happens, s; infinite where it did not.
     pub reached: [f64; MOST_SPEEDS],
     /// End of the run with the coast-down behind it, s.

@@ -10,7 +10,6 @@ use model::magnets::ControlEvent;
 use model::system::machine::Event;
 use outcome::options::{Controller, Options};
 use outcome::{Attached, Attachment, Outcome, Stop};
-use problem::Problem;
 use std::path::Path;
 use std::sync::atomic::Ordering;
 
@@ -22,7 +21,7 @@ pub(super) fn run(one: &One, file: &str, options: &Options) -> Outcome {
         stops_at_contacts: false,
     };
     match Driven::of(one, controlled) {
-        Err(problem) => not_run(&problem),
+        Err(problem) => Outcome::not_built(&problem),
         Ok(mut driven) => {
             let ended = begun(file, options)
                 .map_err(|why| (0.0, why))
@@ -147,15 +146,4 @@ fn put(driven: &mut Driven, commands: Option<Vec<f64>>) -> Result<(), (f64, Stri
         (driven.change(axis, command)).map_err(|problem| (time, problem.to_string()))?;
     }
     Ok(())
-}
-
-fn not_run(problem: &Problem) -> Outcome {
-    Outcome {
-        stop: Stop {
-            reason: "not built",
-            time: 0.0,
-            text: problem.to_string(),
-        },
-        ..Outcome::default()
-    }
 }

@@ -369,7 +369,7 @@ impl Driven {
         Context {
             setup: self.setup(),
             finished,
-            members: 1,
+            repeated: false,
             reached: finished.record.reached,
             end: finished.ending.time,
         }

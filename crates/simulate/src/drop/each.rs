@@ -15,6 +15,7 @@ use outcome::options::Options;
 use outcome::{Outcome, host};
 use problem::Problem;
 use scenario::{Drop, Scenario};
+use statistics::random::Random;
 use std::ops::Deref;
 use std::sync::{Arc, Mutex};
 
@@ -28,12 +29,25 @@ pub struct One<'a> {
     pub(crate) member: Member,
     pub(crate) stepping: Stepping,
     kind: Arc<Kind>,
-    /// Number of members of its repetition.
-    pub(crate) members: usize,
+    /// Whether it is a member of a repetition.
+    repeated: bool,
 }
 
 /// Values that are no real numbers, by their paths.
 type Kind = Vec<(String, Option<String>)>;
+
+/// The random numbers of a member: (seed, k) mixed so that neighbouring pairs share nothing.
+pub fn numbers(seed: u64, k: usize) -> Random {
+    // finaliser of SplitMix64, twice
+    let mix = |mut x: u64| {
+        x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        x ^ (x >> 31)
+    };
+    Random::new(mix(
+        mix(seed.wrapping_add(0x9e37_79b9_7f4a_7c15)).wrapping_add(k as u64)
+    ))
+}
 
 /// Builds a drop of its scenario.
 pub fn one<'a>(scenario: &'a Scenario, given: &Drop) -> Result<One<'a>, Box<Problem>> {
@@ -42,7 +56,7 @@ pub fn one<'a>(scenario: &'a Scenario, given: &Drop) -> Result<One<'a>, Box<Prob
 
 impl<'a> One<'a> {
     /// A drop of its scenario; its history is not kept.
-    pub(crate) fn of(scenario: &'a Scenario, built: Arc<Built>) -> Self {
+    pub fn of(scenario: &'a Scenario, built: Arc<Built>) -> Self {
         let machine = RotorMachine::new(built.constants.clone());
         let mut start = match &built.shaft {
             Some(shaft) => machine.start_with(&shaft.position, &shaft.velocity),
@@ -68,8 +82,41 @@ impl<'a> One<'a> {
                 ..Member::of(machine, start)
             },
             built,
-            members: 1,
+            repeated: false,
         }
+    }
+    /// A single run, whose history is kept.
+    #[must_use]
+    pub fn single(&self) -> Self {
+        let mut one = self.clone();
+        one.member.keep_rows = true;
+        one
+    }
+    /// Member k of its repetition: rotor and balls start a little elsewhere, but in the first, which is kept whole.
+    #[must_use]
+    pub fn repeated(mut self, k: usize) -> Self {
+        self.repeated = true;
+        self.member.keep_rows = k == 0;
+        if k == 0 {
+            return self;
+        }
+        let repeat = &self.built.drop.repeat;
+        let mut random = numbers(repeat.seed, k);
+        let mut normal = || random.normal();
+        let shift = Vec2::new(normal(), normal()) * repeat.rotor_position_deviation;
+        let machine = &self.member.machine;
+        let angles: Vec<Vec<f64>> = (machine.constants.bearings.iter())
+            .map(|part| {
+                let moves = |ball: &usize| part.bearing.azimuth_state(*ball).is_some();
+                let balls = (0..part.bearing.balls()).take_while(moves);
+                balls
+                    .map(|_| normal() * repeat.ball_angle_deviation)
+                    .collect()
+            })
+            .collect();
+        let start = &mut self.member.start;
+        machine.perturb(start, shift, &|bearing, ball| angles[bearing][ball]);
+        self
     }
     /// The file of the unit that commands its magnets, where one does.
     pub(super) fn unit(&self) -> Option<&str> {
@@ -78,7 +125,7 @@ impl<'a> One<'a> {
     }
     /// Whether it is the one member of its repetition that is kept whole, or no repetition.
     pub(crate) fn speaks(&self) -> bool {
-        self.members == 1 || self.member.keep_rows
+        !self.repeated || self.member.keep_rows
     }
     /// Whether lanes may hold both: the same words, counts and switches of their files, the same laws, states and settings.
     fn shares_lanes(&self, other: &One) -> bool {
@@ -173,7 +220,7 @@ fn together(
                 machine: &one.member.machine,
             },
             finished,
-            members: one.members,
+            repeated: one.repeated,
             reached: finished.record.reached,
             end: finished.ending.time,
         };

@@ -23,7 +23,6 @@ mod multirate;
 pub(crate) mod orders;
 pub(crate) mod quantities;
 mod record_file;
-pub mod repetition;
 pub mod shaft;
 pub mod shaft_results;
 pub(crate) mod surfaces;
@@ -40,7 +39,7 @@ use crate::drop::context::{Context, Setup};
 use crate::drop::each::One;
 use crate::drop::multirate::results::{self as coast_down, After};
 use model::system::machine::RotorMachine;
-use outcome::{Column, Contact, Members, Outcome, Picture, Quantity, Work};
+use outcome::{Column, Contact, Outcome, Picture, Quantity, Work};
 use scenario::Scenario;
 
 /// The columns of its history, without values.
@@ -84,7 +83,6 @@ pub(crate) fn outcome(one: &One, context: &Context, after: Option<&After>) -> Ou
             method: Some(one.stepping.name()),
             ..Work::default()
         },
-        members: Members::ended_at(drop.run.duration),
         ..Outcome::default()
     };
     if one.member.keep_rows {

@@ -124,7 +124,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     list.extend(each(&|k| {
         let count = context.record(k).contacts.len();
         let contacts = count as f64;
-        let late = (count > CHAOTIC_CONTACTS && context.members == 1)
+        let late = (count > CHAOTIC_CONTACTS && !context.repeated)
             .then(|| DropWarning::ManyContacts { contacts }.into());
         let kind = (context.setup.given(k).bearing.iter()).flat_map(shared::kind);
         late.into_iter().chain(kind).collect()

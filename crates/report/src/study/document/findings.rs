@@ -12,6 +12,7 @@ use run::study::failure_modes::{FAILURE_MODES, FailureMode};
 use run::study::in_a_row::InARow;
 use run::study::little_known::Owed;
 use run::study::selection::Candidate;
+use run::study::table::warned;
 use scenario::{Limit, Side};
 use statistics::share::wilson;
 
@@ -88,7 +89,7 @@ impl Document<'_> {
 
     /// Where a failure mode is warned of most often, with the 95 % interval of that share.
     fn share_of(&self, mode: &FailureMode) -> String {
-        let warned = self.table.warned();
+        let warned = warned(self.table);
         let of = |code: &str, one: &Candidate| {
             let rows = self.table.members.iter().enumerate();
             let own = rows.filter(|(_, member)| {
@@ -165,7 +166,7 @@ impl Document<'_> {
             if self.is_planar() { "motion is planar (no axial drop, no tilt of the rings); " } else { "" }
         )));
         let all = self.table.members.len();
-        let warned = self.table.warned().into_iter();
+        let warned = warned(self.table).into_iter();
         let warned = warned.filter(|own| own.severity() < Severity::Note);
         let body = warned.map(|own| {
             let code = format!("<code>{}</code> {}", plain(&own.code), plain(&own.title));

@@ -24,7 +24,7 @@ use run::study::answer::Answer;
 use run::study::in_a_row::InARow;
 use run::study::little_known::{LittleKnown, Owed};
 use run::study::selection::Candidate;
-use run::study::table::{Column, Table};
+use run::study::table::{Column, Table, warned};
 use scenario::{CASE, Limit, Side};
 use serde_json::{Value, json};
 use std::fmt::Write;
@@ -331,7 +331,7 @@ impl Document<'_> {
     /// The gravest of what the runs warn of.
     fn gravest(&self) -> String {
         let all = self.table.members.len();
-        let warned = self.table.warned();
+        let warned = warned(self.table);
         let severe: Vec<_> = warned
             .iter()
             .filter(|own| own.severity() <= Severity::Invalid)
