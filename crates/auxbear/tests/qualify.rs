@@ -72,7 +72,7 @@ fn a_document_judges_requirements_and_says_what_they_owe_to_inputs() {
         "0 of 4 requirements met, 1 not met, 3 not shown.",
         "2 of 2 runs hold it, the worst of all runs is",
         "no run was confirmed at design accuracy",
-        "end while an inner race slips on the rotor",
+        "end while the rotor slips on a race or bushing",
         "A. &lt;Engineer&gt;",
         "drawing 4711",
         "no source is given",

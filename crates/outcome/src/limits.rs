@@ -313,6 +313,11 @@ fn deciding(limit: &Limit, mut known: Vec<f64>, members: usize) -> Option<f64> {
     if limit.side == Side::Least {
         known.reverse();
     }
+    // one that breaks it decides, whatever the others are
+    let breaks = |value: &f64| limit.share >= 1.0 && !limit.side.holds(*value, limit.bound);
+    if let Some(worst) = known.last().copied().filter(breaks) {
+        return Some(worst).filter(|worst| worst.is_finite());
+    }
     // rounding of a share that is a whole number of members
     let place = (limit.share * members as f64 - 1e-9).ceil().max(1.0) as usize;
     known

@@ -110,7 +110,7 @@ function whirlNotSought(run) {
   const few = angles < ANGLES_FOR_WHIRL ? `none seen from ${angles} unbalance ${angles === 1 ? "angle" : "angles"}; ${ANGLES_FOR_WHIRL} at least are needed (--repeat ${ANGLES_FOR_WHIRL})` : null;
   const { value, spread } = quantityOf(run, "slips_at_end");
   const slips = (spread ? spread.largest : value) > 0;
-  return [few, slips ? "ends while the inner race slips on the rotor, below 95 % of its speed" : null].filter(Boolean);
+  return [few, slips ? "ends while the rotor slips on a race or bushing that is below 95 % of its speed" : null].filter(Boolean);
 }
 
 function whirlTile(run) {

@@ -51,7 +51,7 @@ pub struct Owed {
     pub value: Option<f64>,
     /// A pair an input.
     pub ends: Vec<[Option<f64>; 2]>,
-    /// Whether those runs end while an inner race slips on the rotor: their values may still grow.
+    /// Whether those runs end while the rotor slips on a race or bushing: their values may still grow.
     pub slips: Vec<[bool; 2]>,
 }
 

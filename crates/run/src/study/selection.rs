@@ -14,7 +14,10 @@ use statistics::design::{Coordinate, Design};
 use statistics::random::below;
 
 /// Warnings of events that did not happen, and of a motion of the base that the run cuts off.
-const NEVER: [&str; 2] = ["AB2083", "AB2085"];
+const NEVER: [(&str, &str); 2] = [
+    ("AB2083", "what should happen did not"),
+    ("AB2085", "the run ends too soon after an event or load"),
+];
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;
 /// Apart from the numbers of the design.
@@ -212,11 +215,10 @@ impl Study {
         if let Some(why) = self.cut_short(rows, table) {
             return Some(why);
         }
-        let mut never = NEVER.iter().filter_map(|code| {
+        let mut never = NEVER.iter().filter_map(|(code, why)| {
             let warned = warned_of(table, &Forbidden::Code(code.to_string()));
             let some = rows.iter().filter(|row| warned[**row] == Some(1.0)).count();
-            (some > 0)
-                .then(|| format!("what should happen did not in {some} of {draws} draws ({code})"))
+            (some > 0).then(|| format!("{why} in {some} of {draws} draws ({code})"))
         });
         never.next()
     }
@@ -260,7 +262,7 @@ impl Study {
         match (falls, slips) {
             (0, 0) => None,
             (0, _) => Some(format!(
-                "{slips} of {of} runs end while an inner race slips on the rotor, below 95 % of its speed"
+                "{slips} of {of} runs end while the rotor slips on a race or bushing that is below 95 % of its speed"
             )),
             _ => Some(format!(
                 "the rotor has not landed when {falls} of {of} runs end"
