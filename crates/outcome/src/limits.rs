@@ -307,7 +307,7 @@ pub fn judge(limit: &Limit, unit: &'static str, values: &[Option<f64>], why: &st
     }
 }
 
-/// The value that the share of the members holds: the worst of them for a share of 1. None where it is not known.
+/// The value that the share of the members holds: the worst of them for a share of 1. None where it is not known and none that is known breaks the bound.
 fn deciding(limit: &Limit, mut known: Vec<f64>, members: usize) -> Option<f64> {
     known.sort_by(f64::total_cmp);
     if limit.side == Side::Least {
@@ -533,11 +533,11 @@ mod tests {
         assert_eq!(at(Side::Most, 0.95), Some(19.0));
         assert_eq!(at(Side::Least, 1.0), Some(1.0));
         assert_eq!(at(Side::Least, 0.9), Some(3.0));
-        // two members without a value: the worst is not known
+        // a member without a value: the worst is not known, but one that breaks the bound decides
         let mut some = values.clone();
         some[3] = None;
-        let judged = judge(&limit(Side::Most, 10.0, 1.0), "N", &some, "");
-        assert_eq!(judged.value, None);
+        let worst = |bound| judge(&limit(Side::Most, bound, 1.0), "N", &some, "").value;
+        assert_eq!((worst(30.0), worst(10.0)), (None, Some(20.0)));
     }
 
     #[test]

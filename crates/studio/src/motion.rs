@@ -72,6 +72,7 @@ pub fn motion(run: &PageRun) -> Option<Value> {
     let places = quantities.find(|own| own["shown"]["shape"] == "place");
     Some(json!({
         "time": own.named("time"),
+        "every": own.every,
         "bearings": bearings,
         "plots": [
             { "title": "Contact force", "unit": "N", "lines": ends("contact.force") },

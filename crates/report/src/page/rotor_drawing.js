@@ -163,7 +163,7 @@ function rotorDrawing(run, overlays, bearings, width) {
   }));
   const height = below + laned + margin.bottom;
   const nodes = z.map((at) => drawing("circle", { cx: toX(at), cy: middle, r: z.length > 80 ? 1 : 1.7, fill: NODE_DOT }));
-  const stretched = Math.abs(upright / scale - 1) > 0.01 ? `, diameters ${numberText(upright / scale, 2)} times as large` : "";
+  const stretched = Math.abs(upright / scale - 1) > 0.05 ? `, diameters ${numberText(upright / scale, 2)} times as large` : "";
   const axis = [
     drawing("line", { x1: margin.left - 14, x2: width - margin.right + 10, y1: middle, y2: middle, stroke: "#8995a0", "stroke-dasharray": "10 3 2 3" }),
     axisSteps(first * 1e3, last * 1e3, Math.max(3, width / 110)).map((mm) => [drawing("line", { x1: toX(mm / 1e3), x2: toX(mm / 1e3), y1: height - 30, y2: height - 25, stroke: "#8995a0" }), drawing("text", { x: toX(mm / 1e3), y: height - 12, "text-anchor": "middle", "font-size": 11, fill: INK }, numberText(mm, 6))]),

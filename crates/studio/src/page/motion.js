@@ -111,7 +111,7 @@ async function motionView(directory) {
     plots.forEach((plot) => plot.show(row));
   }
   const most = bearings[0].force ? bearings[0].force.indexOf(Math.max(...bearings[0].force)) : 0;
-  const node = el("div", { class: "motion" }, el("div", { class: "cursor" }, play, slider, instant), el("div", { class: "motion-body" }, el("div", { class: "live" }, figures), el("div", { class: "plots" }, plots.map((plot) => plot.node))));
+  const node = el("div", { class: "motion" }, el("div", { class: "cursor" }, play, slider, instant), found.every > 1 ? el("p", { class: "hint" }, `Every ${found.every} rows of the history: peaks between them stand in the results.`) : null, el("div", { class: "motion-body" }, el("div", { class: "live" }, figures), el("div", { class: "plots" }, plots.map((plot) => plot.node))));
   // canvases know their width once they are in the page
   requestAnimationFrame(() => show(Math.max(0, most)));
   return node;
