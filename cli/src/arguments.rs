@@ -343,6 +343,12 @@ pub struct Stiffness {
     /// Preload of a pair or set as the distance by which it is closed, e.g. "8 um"
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub offset: Option<String>,
+    /// Stiffness of a spring that keeps --preload, e.g. "1e6 N/m": the outer rings of the rows that carry thrust towards -z slide against it
+    #[arg(long, value_name = "STIFFNESS")]
+    pub preload_spring: Option<String>,
+    /// Compression beyond that of the preload at which this spring is solid, e.g. "0.2 mm"
+    #[arg(long, value_name = "LENGTH")]
+    pub spring_travel: Option<String>,
     /// Distance of the rows; else the width of a bearing
     #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
     pub spacing: Option<String>,

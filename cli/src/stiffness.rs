@@ -25,6 +25,8 @@ pub fn perform(wish: &Stiffness) -> Result<()> {
             ("--arrangement", wish.arrangement.as_deref()),
             ("--preload", wish.preload.as_deref()),
             ("--offset", wish.offset.as_deref()),
+            ("--preload-spring", wish.preload_spring.as_deref()),
+            ("--spring-travel", wish.spring_travel.as_deref()),
             ("--spacing", wish.spacing.as_deref()),
             ("--race-control", wish.race_control.as_deref()),
         ],
@@ -74,6 +76,13 @@ fn text(answer: &Answer) -> String {
         text.push_str(&format!(
             "pair closed by {closed} um; thrust of its rows at this speed without load: {}\n",
             thrusts.join(", ")
+        ));
+    }
+    if let Some([compression, force]) = answer.spring {
+        text.push_str(&format!(
+            "preload spring under the rows that carry thrust towards -z: {} N, compressed by {} um more than at rest\n",
+            digits(force, 1),
+            digits(1e6 * compression, 2)
         ));
     }
     let [x, y, z] = answer.displacement.shift.map(|own| digits(1e6 * own, 3));

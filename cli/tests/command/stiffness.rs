@@ -187,6 +187,55 @@ fn a_name_says_the_arrangement_and_the_balls() {
 }
 
 #[test]
+fn a_preload_by_a_spring_follows_the_load() {
+    let place = Place::new();
+    let of = |axial: &str, more: &[&str]| {
+        let axial = format!("--axial={axial}");
+        let words = [
+            "7010 C DB",
+            "--preload",
+            "100 N",
+            "--speed",
+            "9000 rpm",
+            &axial,
+        ];
+        call(&place, &[&words, more].concat())
+    };
+    let json = |axial: &str, more: &[&str]| -> Value {
+        let more = [more, &["--json"]].concat();
+        serde_json::from_str(&of(axial, &more).done().out).unwrap()
+    };
+    let rigid = json("80 N", &[]);
+    let stiff = json("80 N", &["--preload-spring", "1e20 N/m"]);
+    assert!(rigid["spring_force"].is_null());
+    for (name, k) in [("shift", 2), ("thrusts", 0)] {
+        close(&stiff[name][k], rigid[name][k].as_f64().unwrap(), 1e-9);
+    }
+    // of a spring of any use the force is that of the preload
+    let kept = json("80 N", &["--preload-spring", "1e5 N/m"]);
+    close(&kept["spring_force"], 100.0, 0.02);
+    // its compression is what the balls add as they press outwards
+    let compression = kept["spring_compression"].as_f64().unwrap();
+    close(&kept["spring_force"], 100.0 + 1e5 * compression, 1e-9);
+    let text = of("80 N", &["--preload-spring", "1e5 N/m"]).done().out;
+    assert!(text.contains("preload spring under the rows"), "{text}");
+    let solid = of(
+        "-400 N",
+        &["--preload-spring", "1e6 N/m", "--spring-travel", "50 um"],
+    );
+    assert!(solid.done().err.contains("AB2408"));
+    // at speed the balls press on all the way
+    let words = ["7010 C DB", "--preload", "100 N", "--axial", "2 kN"];
+    let free = call(
+        &place,
+        &[&words[..], &["--preload-spring", "1e8 N/m"]].concat(),
+    );
+    assert!(free.done().err.contains("AB2407"));
+    let alone = ["7010 C DB", "--axial", "1 N", "--preload-spring", "1e6 N/m"];
+    call(&place, &alone).refused(&["--preload-spring", "without --preload"]);
+}
+
+#[test]
 fn wrong_input_is_one_message() {
     let place = Place::new();
     let refused = |words: &[&str], parts: &[&str]| {

@@ -232,7 +232,8 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
     let last =
         |run: &auxbear::Outcome, name: &str| *run.column(name).unwrap().values.last().unwrap();
     let plain = run(&[]);
-    let hot = run(&["heat.network=on", "bearing.inner_race_mass=0.05 kg"]);
+    let heats = ["heat.network=on", "bearing.inner_race_mass=0.05 kg"];
+    let hot = run(&heats);
     assert!(number(&hot, "lower.relative_heat_residual") < 1e-9);
     assert!(number(&hot, "energy_residual").abs() < 1e-6);
     let [least, most] =
@@ -240,6 +241,18 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
     assert!(least == 90.0 && most > 91.0, "{least} {most}");
     let preload = last(&hot, "lower.bearing.preload");
     assert!(preload > 91.0 && preload <= most, "{preload} {most}");
+    // a spring lets the rings grow
+    let springs = [
+        "bearing.preload_spring_stiffness=1e5 N/m",
+        "bearing.preload_spring_side=end",
+    ];
+    let sprung = run(&[&heats[..], &springs[..]].concat());
+    assert!(number(&sprung, "energy_residual").abs() < 1e-6);
+    let grown = number(&sprung, "lower.largest_preload") - 90.0;
+    assert!(
+        grown > 0.0 && grown < 0.05 * (most - 90.0),
+        "{grown} {most}"
+    );
     // the masses given are those of one row: steel of both rings keeps the heat
     let rise = number(&hot, "lower.peak_inner_race_temperature") - 298.15;
     let kept = number(&hot, "lower.stored_heat_in_inner_race");
@@ -329,6 +342,74 @@ fn outer_rings_tilt_in_their_mount() {
 }
 
 #[test]
+fn a_spring_keeps_a_row_pressed_that_a_distance_would_free() {
+    let run = |sets: &[&str]| {
+        let sets: Vec<String> = (sets.iter())
+            .map(|set| format!("auxiliary_bearing.lower.{set}"))
+            .collect();
+        let all = ["run.duration=10 ms"].into_iter();
+        let all: Vec<&str> = all.chain(sets.iter().map(String::as_str)).collect();
+        ran(FLYWHEEL, &all)
+    };
+    let unloaded =
+        |run: &auxbear::Outcome| match &run.quantity("lower.row_unloaded_times").unwrap().value {
+            Value::List(times) => times.iter().filter(|time| time.is_finite()).count(),
+            _ => panic!("no list"),
+        };
+    let forces = |run: &auxbear::Outcome| {
+        ["smallest", "largest"]
+            .map(|which| number(run, &format!("lower.{which}_preload_spring_force")))
+    };
+    // the shaft lands on the lower face: towards the start. Rows that stand take the thrust, the spring follows by some micrometres
+    let soft = "bearing.preload_spring_stiffness=2e5 N/m";
+    let kept = run(&[soft, "bearing.preload_spring_side=end"]);
+    assert!(number(&kept, "energy_residual").abs() < 1e-5);
+    assert_eq!([unloaded(&run(&[])), unloaded(&kept)], [1, 0]);
+    let [least, most] = forces(&kept);
+    assert!(
+        least > 70.0 && least < 90.0 && most < 95.0,
+        "{least} {most}"
+    );
+    let column = |name: &str| &kept.column(name).unwrap().values;
+    let (slid, force) = (
+        column("lower.bearing.sliding_outer_race.z"),
+        column("lower.bearing.preload_spring.force"),
+    );
+    for (slid, force) in slid.iter().zip(force) {
+        assert!((force - (90.0 + 2e5 * slid)).abs() < 1e-6, "{slid} {force}");
+    }
+    // the same thrust on the spring: it is compressed until it is solid, and the rotor sinks
+    let sunk = run(&[soft, "bearing.preload_spring_travel=0.1 mm"]);
+    assert!(number(&sunk, "energy_residual").abs() < 1e-5);
+    assert!(sunk.warnings.iter().any(|own| own.code == "AB2419"));
+    let [_, most] = forces(&sunk);
+    assert!(most > 90.0 + 2e5 * 0.1e-3 + 200.0, "{most}");
+    let place = |run: &auxbear::Outcome| *run.column("rotor.z").unwrap().values.last().unwrap();
+    let deeper = place(&kept) - place(&sunk);
+    assert!(deeper > 0.08e-3, "{deeper}");
+    // stiff, it is free before the row is
+    let freed = run(&[
+        "bearing.preload_spring_stiffness=1e8 N/m",
+        "bearing.preload_spring_side=end",
+    ]);
+    assert!(freed.warnings.iter().any(|own| own.code == "AB2418"));
+    assert_eq!((unloaded(&freed), forces(&freed)[0]), (1, 0.0));
+    // what is not computed
+    for (set, needed) in [
+        (
+            "bearing.preload_spring_mass=9 kg",
+            "less than mount.moving_mass",
+        ),
+        ("bearing.arrangement=DT", "stand against each other"),
+        ("mount.tilt_stiffness=1e4 N m/rad", "keep their orientation"),
+    ] {
+        let sets = [soft, "bearing.cage.guidance=balls", set]
+            .map(|set| format!("auxiliary_bearing.lower.{set}"));
+        refused(&sets.each_ref().map(String::as_str), needed);
+    }
+}
+
+#[test]
 fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
     const LOWER: &str = "auxiliary_bearing.lower.";
     for (sets, needed) in [
@@ -337,6 +418,8 @@ fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
             "nothing presses a single row",
         ),
         (&["bearing.arrangement=DT"], "tandem"),
+        (&["contact.face_radius=14.9 mm"], "15.00 to "),
+        (&["contact.face_radius=24 mm"], "no shoulder meets a face"),
         (&["bearing.shoulder_height=0.01 mm"], "groove ends"),
         (
             &["bearing.operating_diametral_clearance=5 um"],

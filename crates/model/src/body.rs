@@ -9,7 +9,8 @@
 //! a planar part asks for.
 
 use crate::motion::Body;
-use crate::spatial::part::{BODY_NAMES, SPIN, orientation_scale};
+use crate::spatial::part::SPIN;
+use crate::spatial::part_states::{BODY_NAMES, orientation_scale};
 use crate::spatial::rigid_body::{BODY_STATES, RigidBody};
 use number::{Real, Vec2};
 use std::ops::Range;

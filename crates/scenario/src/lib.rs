@@ -53,7 +53,7 @@ pub use bearing::lubricant_state::LubricantState;
 pub use bearing::moment::{AccelerationLoss, Moment, MomentShare, RatedBearing};
 pub use bearing::separation::{Cage, FullComplement, Guidance, Land, Separation};
 pub use bearing::source::{BearingRecord, BearingSource, BuiltIn, NoBearings};
-pub use bearing::spatial::{Arrangement, ContactNodes, Spatial, ThrustSide};
+pub use bearing::spatial::{Arrangement, ContactNodes, PreloadSpring, Spatial, ThrustSide};
 pub use bearing::{Bearing, Drag, OilFilm, Traction};
 pub use coast_down::{CoastDown, CoastDownEnd, CoastingBearing};
 pub use drop::axial_share;

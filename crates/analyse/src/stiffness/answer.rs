@@ -3,6 +3,7 @@
 use super::Contacts;
 use super::asked::Asked;
 use super::warnings::{self, Rows};
+use model::spatial::PreloadSpring;
 use model::spatial::statics::{BallEquilibrium, Displacement, Equilibrium};
 use outcome::Warning;
 use physics::hertz::maximum_pressure;
@@ -36,6 +37,10 @@ pub struct Answer {
     pub offset: f64,
     /// Thrust of each row without the loads, N; none without preload.
     pub preload_thrusts: Option<Vec<f64>>,
+    /// Compression of the preload spring beyond that of the preload, m, and its force, N.
+    pub spring: Option<[f64; 2]>,
+    /// How far outer rings have slid against it along the axis, m.
+    slid: f64,
     /// Displacement of the inner ring.
     pub displacement: Displacement,
     /// Balls of each row.
@@ -83,6 +88,8 @@ impl Answer {
             asked: asked.clone(),
             offset,
             preload_thrusts: preloaded.as_ref().map(thrusts),
+            spring: None,
+            slid: loaded.slid,
             displacement: loaded.displacement,
             rows: rows.collect(),
             thrusts: thrusts(&loaded),
@@ -91,6 +98,15 @@ impl Answer {
         };
         answer.warnings = warnings::of(asked, &Rows(&answer.rows));
         answer
+    }
+
+    /// Adds what a preload spring does.
+    pub(super) fn add_spring(&mut self, spring: Option<&PreloadSpring<f64>>) {
+        let Some(spring) = spring else { return };
+        let (compression, force) = (spring.side * self.slid, spring.force(self.slid));
+        self.spring = Some([compression, force]);
+        self.warnings
+            .extend(warnings::of_spring(spring, compression, force));
     }
 
     /// All of it as one JSON text; numbers in SI, angles in rad.
@@ -132,6 +148,8 @@ impl Answer {
             "speed": asked.speed,
             "offset": self.offset,
             "preload_thrusts": self.preload_thrusts,
+            "spring_compression": self.spring.map(|own| own[0]),
+            "spring_force": self.spring.map(|own| own[1]),
             "shift": self.displacement.shift,
             "tilt": self.displacement.tilt,
             "thrusts": self.thrusts,

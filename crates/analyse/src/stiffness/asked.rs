@@ -52,6 +52,8 @@ pub struct Asked {
     pub preload: Option<f64>,
     /// Distance by which the rows are closed, m.
     pub offset: Option<f64>,
+    /// Stiffness of the spring that keeps the preload of the rows that carry thrust towards -z, N/m, and its travel, m.
+    pub spring: Option<[f64; 2]>,
     /// N.
     pub axial: f64,
     /// N.
@@ -66,7 +68,7 @@ pub struct Asked {
 
 /// Options that are quantities: unit, smallest and largest value, what is needed.
 #[rustfmt::skip]
-const QUANTITIES: [(&str, &str, [f64; 2], &str); 9] = [
+const QUANTITIES: [(&str, &str, [f64; 2], &str); 11] = [
     ("--axial", "N", ANY, "a force is needed, e.g. \"200 N\""),
     ("--radial", "N", ANY, "a force is needed, e.g. \"200 N\""),
     ("--moment", "N m", ANY, "a moment is needed, e.g. \"2 N m\""),
@@ -75,10 +77,14 @@ const QUANTITIES: [(&str, &str, [f64; 2], &str); 9] = [
     ("--clearance", "m", [0.0, 1e-3], "a diametral clearance from 0 to 1 mm is needed, e.g. \"10 um\""),
     ("--spacing", "m", [1e-6, 1.0], "a distance of rows above 0 is needed, e.g. \"12 mm\""),
     ("--preload", "N", [1e-9, MOST], "a force above 0 N is needed, e.g. \"65 N\": without it the pair is unloaded at rest"),
+    ("--preload-spring", "N/m", [1e-9, STIFFEST], "a stiffness above 0 N/m is needed, e.g. \"1e6 N/m\""),
+    ("--spring-travel", "m", [1e-9, 1.0], "a compression above 0 m at which the spring is solid is needed, e.g. \"0.2 mm\""),
     ("--offset", "m", [0.0, 1e-3], "a distance from 0 to 1 mm by which the pair is closed is needed, e.g. \"8 um\": a pair that is opened is unloaded at rest"),
 ];
 /// Larger than any load, moment or speed of a ball bearing.
 const MOST: f64 = 1e9;
+/// Stiffer than any spring.
+const STIFFEST: f64 = 1e21;
 const ANY: [f64; 2] = [-MOST, MOST];
 
 /// Options as typed, under a place that stands for the file in messages.
@@ -197,13 +203,23 @@ impl Asked {
                 _ if arrangement.preloads() => continue,
                 _ => "a tandem, whose rows do not press on each other",
             };
-            let allowed = "--arrangement DB or DF, or a set with rows on both sides, is needed; preload by a spring is an --axial load";
+            let allowed = "--arrangement DB or DF, or a set with rows on both sides, is needed; what presses others is an --axial load";
             return typed.refuse(
                 Code::Conflict,
                 option,
                 format!("\"{text}\" of {what}"),
                 allowed,
             );
+        }
+        for (option, beside) in [
+            ("--preload-spring", "--preload"),
+            ("--spring-travel", "--preload-spring"),
+        ] {
+            if let (Some(text), None) = (typed.text(option), typed.text(beside)) {
+                let found = format!("\"{text}\" without {beside}");
+                let allowed = format!("{beside} is needed beside it");
+                return typed.refuse(Code::MissingKey, option, found, allowed);
+            }
         }
         let distance = centre_distance(curvatures, ball_diameter);
         let clearance = typed.quantity("--clearance")?;
@@ -268,6 +284,13 @@ impl Asked {
             },
             preload,
             offset,
+            spring: match typed.quantity("--preload-spring")? {
+                Some(stiffness) => {
+                    let travel = typed.quantity("--spring-travel")?;
+                    Some([stiffness, travel.unwrap_or(f64::INFINITY)])
+                }
+                None => None,
+            },
             axial,
             radial,
             moment,

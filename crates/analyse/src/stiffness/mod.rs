@@ -4,6 +4,7 @@
 //!   balls between toroidal grooves, centrifugal and gyroscopic loads (model::spatial::statics);  K = -∂(force, moment)/∂u
 //!   arrangements   single;  DB (O, back to back), DF (X, face to face), DT (tandem), sets of three and four: rows a spacing apart
 //!   preload by an offset: the inner grooves are moved by half of it each, so that the rows are closed by so much
+//!   preload by a spring: the outer rings of the rows that carry thrust towards -z slide along the axis against it
 //! ```
 //! A deep-groove bearing alone stands with its grooves opposite each other and takes thrust from both sides.
 
@@ -14,12 +15,15 @@ pub mod warnings;
 pub use answer::Answer;
 pub use asked::{Asked, Typed};
 
-use model::spatial::RowGeometry;
 use model::spatial::statics::ball::Running;
 use model::spatial::statics::{RingLoad, StaticBall, StaticRow, StaticRows};
+use model::spatial::{PreloadSpring, RowGeometry};
 use physics::hertz::{BallRace, NotAPoint, PointContact, Race};
 use physics::materials::{BEARING_STEEL, ball_mass, contact_modulus};
 use problem::{Code, Problem, Result};
+
+/// Stiffness of a spring that is solid, N/m: assumed, that of a shoulder on a face.
+const SOLID: f64 = 2e8;
 
 /// Contacts of a ball with both races.
 struct Contacts {
@@ -78,7 +82,18 @@ impl Asked {
                 outer,
             },
         });
-        Some((StaticRows(rows.collect()), offset))
+        let spring = self.preload.zip(self.spring);
+        let spring = spring.map(|(preload, [stiffness, travel])| PreloadSpring {
+            side: -1.0,
+            preload,
+            stiffness,
+            travel,
+            stop_stiffness: SOLID,
+            stop_damping: 0.0,
+            mass: 0.0,
+        });
+        let rows = rows.collect();
+        Some((StaticRows { rows, spring }, offset))
     }
 }
 
@@ -110,7 +125,12 @@ pub fn run(asked: &Asked, place: &str) -> Result<Answer> {
         impossible(found, "loads that close the contacts are needed, and enough axial load for the speed: a ball that the inner race hardly holds cannot take its gyroscopic moment (--race-control outer leaves it to the outer race)")
     })?;
     let preloaded = (offset > 0.0)
-        .then(|| rows.at(Default::default(), &running).ok())
+        .then(|| match rows.spring {
+            Some(_) => rows.settle(&RingLoad::default(), &running).ok(),
+            None => rows.at(Default::default(), &running).ok(),
+        })
         .flatten();
-    Ok(Answer::new(asked, &contacts, offset, (loaded, preloaded)))
+    let mut answer = Answer::new(asked, &contacts, offset, (loaded, preloaded));
+    answer.add_spring(rows.spring.as_ref());
+    Ok(answer)
 }

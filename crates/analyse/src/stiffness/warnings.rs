@@ -2,6 +2,7 @@
 
 use super::answer::Ball;
 use super::asked::Asked;
+use model::spatial::PreloadSpring;
 use outcome::Warning;
 use physics::groove::reaches_shoulder;
 
@@ -16,10 +17,28 @@ problem::warnings! {
             ("Row {row} is unloaded: no ball of it touches the inner ring. A larger preload keeps it loaded.");
         LostInner { balls: "1" } "AB2404" Uncertain
             ("{balls} balls are held by the outer race alone: centrifugal force has lifted them from the inner race.");
+        SpringFree { followed: "m" } "AB2407" Uncertain
+            ("The preload spring is free: it has followed the rows by {:.1} um. The rows on it carry nothing.", 1e6 * followed);
+        SpringSolid { travel: "m" } "AB2408" Uncertain
+            ("The preload spring is solid: the load has compressed it by {:.0} um, and the stiffness is that of a stop of 2e8 N/m behind it.", 1e6 * travel);
         BeyondRange { what: words } "AB2405" Uncertain
             ("Beyond the range of the contact law: {what}.");
         Pressure { pressure: "Pa" } "AB2406" Destroys
             ("Hertz pressure of {:.0} MPa: 4200 MPa dent the races (ISO 76).", 1e-6 * pressure);
+    }
+}
+
+/// What to know of a preload spring by its compression, m, and its force, N.
+pub(super) fn of_spring(
+    spring: &PreloadSpring<f64>,
+    compression: f64,
+    force: f64,
+) -> Option<Warning> {
+    let (followed, travel) = (-compression, spring.travel);
+    match (force <= 0.0, compression > travel) {
+        (true, _) => Some(StiffnessWarning::SpringFree { followed }.into()),
+        (_, true) => Some(StiffnessWarning::SpringSolid { travel }.into()),
+        _ => None,
     }
 }
 

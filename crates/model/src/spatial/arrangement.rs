@@ -10,6 +10,7 @@
 
 use super::ball::SpatialBall;
 use super::race::RaceGroove;
+use super::spring::PreloadSpring;
 use physics::groove::{
     axis_over_root_approach, centre_distance, contact_surface_radius, pure_axial_load,
 };
@@ -99,12 +100,22 @@ impl RowGeometry {
     }
 }
 
-/// Preload of rows at rest, N: what those of one side carry where the inner ring, moved along its axis, is in equilibrium. Each row by its
-/// number of balls and one of them.
-pub fn preload_at_rest(rows: &[(usize, SpatialBall<f64>)]) -> f64 {
+/// Preload of rows at rest, N: what those of one side carry where the inner ring, moved along its axis, is in equilibrium, and a spring
+/// where there is one. Each row by its number of balls and one of them.
+pub fn preload_at_rest(
+    rows: &[(usize, SpatialBall<f64>)],
+    spring: Option<&PreloadSpring<f64>>,
+) -> f64 {
+    let slides = |ball: &SpatialBall<f64>| spring.is_some_and(|own| own.presses(ball));
     let thrusts = |moved: f64| {
+        let fixed = rows.iter().filter(|(_, ball)| !slides(ball));
+        let pressed: f64 = fixed
+            .map(|(balls, ball)| *balls as f64 * ball.thrust_at_rest(moved))
+            .sum();
+        let slid = spring.map_or(0.0, |own| own.slid_by(pressed.abs()));
         let one = move |(balls, ball): &(usize, SpatialBall<f64>)| {
-            *balls as f64 * ball.thrust_at_rest(moved)
+            let beside = moved - if slides(ball) { slid } else { 0.0 };
+            *balls as f64 * ball.thrust_at_rest(beside)
         };
         rows.iter().map(one)
     };

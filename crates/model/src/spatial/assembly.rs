@@ -4,9 +4,9 @@
 //!   states   bodies of 13: rotor, inner ring, outer ring, a cage for each row; then for each row its balls, nine lists; then the
 //!            energy accounts [`LEDGER`], J
 //!   inner    drive τ a_i, force and moment from outside, settling damper -c_i v, -c_it (ω - (ω·a)a)
-//!   outer    mount;  tied cages move with it and add their mass
+//!   outer    mount;  tied cages move with it and add their mass;  of a set pressed by a spring the rings of one side slide by s
 //! ```
-//! A body that does not exist keeps its states.
+//! s and its rate follow the balls where there is such a spring. A body that does not exist keeps its states.
 
 use super::ball::BALL_STATES;
 use super::landing::LandingReaction;
@@ -16,6 +16,7 @@ use super::race::RingMotion;
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::rotor::{Rotor, SpatialRotor};
 use super::row::{Around, BallContacts, CageGuide, Detail, Row, RowConstants, SpatialLand};
+use super::spring::PreloadSpring;
 use number::{Gather, Real, Vec3, Vectorized, constants};
 
 /// Energy accounts in the order of the states: work that became heat, then work that was supplied.
@@ -81,6 +82,8 @@ pub struct AssemblyConstants {
     pub outer: OuterRing<f64>,
     /// The rows of balls.
     pub rows: Vec<RowConstants>,
+    /// What presses the rows of one side, where a spring does; the outer ring does not turn then.
+    pub spring: Option<PreloadSpring<f64>>,
     /// The rotor.
     pub rotor: Option<SpatialRotor>,
 }
@@ -117,6 +120,7 @@ pub struct Assembly<R: Real> {
     /// Mass that moves with the outer ring, kg.
     outer_mass: R,
     rows: Vec<Row<R>>,
+    spring: Option<PreloadSpring<R>>,
     rotor: Option<Rotor<R>>,
 }
 
@@ -132,7 +136,25 @@ impl AssemblyConstants {
     }
     /// First of the energy accounts, which are the last states.
     pub fn first_account(&self) -> usize {
+        let sliding = if self.spring.is_some() { SLIDING } else { 0 };
+        self.first_sliding() + sliding
+    }
+    /// First of both states of outer rings that slide.
+    pub fn first_sliding(&self) -> usize {
         self.first_ball_state(self.rows.len())
+    }
+    /// The outer ring of a row.
+    pub(super) fn outer_of<R: Real>(
+        &self,
+        row: usize,
+        outer: RigidBody<R>,
+        state: &[R],
+    ) -> RigidBody<R> {
+        let ball = &self.rows[row].ball;
+        match self.spring.filter(|own| own.presses(ball)) {
+            Some(_) => outer.slid([state[self.first_sliding()], state[self.first_sliding() + 1]]),
+            None => outer,
+        }
     }
     /// Number of states.
     pub fn states(&self) -> usize {
@@ -142,6 +164,7 @@ impl AssemblyConstants {
     pub fn ball(&self, row: usize, ball: usize, state: &[f64]) -> BallContacts<f64> {
         let [inner, outer, cage] =
             [1, 2, 3 + row].map(|body| RigidBody::read(&state[self.body(body)..]));
+        let outer = self.outer_of(row, outer, state);
         self.rows[row].contacts(
             [&inner, &outer, &cage],
             &state[self.first_ball_state(row)..],
@@ -185,6 +208,12 @@ impl<R: Real> Assembly<R> {
             outer,
             outer_mass,
             rows,
+            spring: machine(0).spring.as_ref().map(|_| {
+                Gather::gather(&|lane| {
+                    let spring = machine(lane).spring.as_ref();
+                    spring.expect("lanes share whether a spring presses")
+                })
+            }),
             rotor: machine(0).rotor.as_ref().map(|_| {
                 Rotor::gather(&|lane| {
                     let rotor = machine(lane).rotor.as_ref();
@@ -216,6 +245,8 @@ pub(super) struct Bodies<R> {
     pub growth_impulse: R,
     /// Normal force between cages and lands, N.
     pub land_force: R,
+    /// Along the axis on the outer rings that slide, by their rows and by the spring, N, and their speed beside the others, m/s.
+    sliding: [R; 3],
     /// Powers of the accounts, W.
     pub power: [R; LEDGER.len()],
 }
@@ -241,6 +272,7 @@ impl<R: Real> Bodies<R> {
             external: R::zero(),
             growth_impulse: R::zero(),
             land_force: R::zero(),
+            sliding: [R::zero(); 3],
             power: [R::zero(); LEDGER.len()],
         }
     }
@@ -335,6 +367,9 @@ const LAND: usize = 11;
 const FACE: usize = 13;
 const SETTLING: usize = 15;
 
+/// States of outer rings that slide: how far, m, and how fast, m/s.
+pub(super) const SLIDING: usize = 2;
+
 /// All rates.
 struct Rates<'a, R: Real> {
     assembly: &'a Assembly<R>,
@@ -383,7 +418,12 @@ impl<R: Real> Assembly<R> {
     }
     #[inline(always)]
     fn first_account(&self) -> usize {
-        BODY_STATES * (3 + self.rows.len()) + BALL_STATES * self.balls()
+        3 * BODY_STATES + self.first_sliding() + if self.spring.is_some() { SLIDING } else { 0 }
+    }
+    /// Of both states of outer rings that slide, behind those of cages and balls.
+    #[inline(always)]
+    fn first_sliding(&self) -> usize {
+        BODY_STATES * self.rows.len() + BALL_STATES * self.balls()
     }
     /// Cages and balls, whose states follow each other: their rates, and what they do to the rings. The detail of the balls is filled
     /// where asked, see [`super::row`].
@@ -396,9 +436,24 @@ impl<R: Real> Assembly<R> {
     ) {
         let balls = self.balls();
         let mut first = BODY_STATES * self.rows.len();
+        let fixed = bodies.outer;
+        let mut slid = fixed;
+        if let Some(spring) = &self.spring {
+            let at = self.first_sliding();
+            slid = fixed.slid([state[at], state[at + 1]]);
+            let by_spring = spring.act(state[at], state[at + 1]);
+            bodies.sliding[1] = by_spring.on_ring;
+            bodies.sliding[2] = state[at + 1];
+            bodies.power[SUPPORT] += by_spring.heat;
+        }
         let (mut index, mut before) = (0, 0);
         while index < self.rows.len() {
             let row = &self.rows[index];
+            let slides = match &self.spring {
+                Some(spring) => spring.carries([&row.ball.inner, &row.ball.outer]),
+                None => false,
+            };
+            bodies.outer = if slides { slid } else { fixed };
             let place = BODY_STATES * index;
             index += 1;
             let cage = RigidBody::read(&state[place..]);
@@ -413,9 +468,17 @@ impl<R: Real> Assembly<R> {
             before += row.balls;
             let reaction = row.react(&around, &state[own.clone()], &mut rate[own], into);
             let own = &mut rate[place..place + BODY_STATES];
+            let mut by_others = bodies.on_outer.force.z;
             bodies.move_cage(row, &cage, reaction.on_cage, (self.gravity, own));
+            if row.is_tied() {
+                // a tied cage moves with the rings that stand
+                by_others = bodies.on_outer.force.z;
+            }
             bodies.on_inner.add(reaction.on_inner);
             bodies.on_outer.add(reaction.on_outer);
+            if slides {
+                bodies.sliding[0] += bodies.on_outer.force.z - by_others;
+            }
             bodies.external += reaction.external;
             bodies.growth_impulse += reaction.growth_impulse;
             let mut k = 0;
@@ -424,10 +487,18 @@ impl<R: Real> Assembly<R> {
                 k += 1;
             }
         }
+        bodies.outer = fixed;
     }
-    /// Gives tied cages, whose rates these are, the acceleration of the outer ring.
+    /// Gives tied cages the acceleration of the outer ring, and rings that slide their own beside it; the rates are those of cages and balls.
     #[inline(always)]
-    pub(super) fn carry_cages(&self, acceleration: Vec3<R>, rate: &mut [R]) {
+    pub(super) fn carry(&self, bodies: &Bodies<R>, acceleration: Vec3<R>, rate: &mut [R]) {
+        if let Some(spring) = &self.spring {
+            let [by_rows, by_spring, speed] = bodies.sliding;
+            let own = (by_rows + by_spring) * spring.mass.recip() + self.gravity.z;
+            let at = self.first_sliding();
+            rate[at] = speed;
+            rate[at + 1] = own - acceleration.z;
+        }
         let mut index = 0;
         while index < self.rows.len() {
             if self.rows[index].is_tied() {
@@ -472,7 +543,7 @@ impl<R: Real> Assembly<R> {
         }
         self.move_inner(bodies, &mut rate[BODY_STATES..2 * BODY_STATES]);
         let acceleration = self.move_outer(bodies, &mut rate[2 * BODY_STATES..3 * BODY_STATES]);
-        self.carry_cages(acceleration, &mut rate[3 * BODY_STATES..]);
+        self.carry(bodies, acceleration, &mut rate[3 * BODY_STATES..]);
         probe
     }
     #[inline(always)]
@@ -503,7 +574,13 @@ impl<R: Real> Assembly<R> {
         let by_mount = ring.mount.wrench(body);
         bodies.power[SUPPORT] += ring.mount.heat(body);
         let force = bodies.on_outer.force + by_mount.force;
-        let acceleration = force * self.outer_mass.recip() + self.gravity;
+        let mut acceleration = force * self.outer_mass.recip() + self.gravity;
+        if let Some(spring) = &self.spring {
+            // along the axis without the rings that slide, and with the other end of the spring
+            let [by_rows, by_spring, _] = bodies.sliding;
+            let along = force.z - by_rows - by_spring;
+            acceleration.z = along * (self.outer_mass - spring.mass).recip() + self.gravity.z;
+        }
         let moment = bodies.on_outer.moment + by_mount.moment;
         let mut turning = ring.inertia.angular_acceleration(body, moment);
         if !ring.turns {

@@ -15,6 +15,7 @@ use super::race::RaceGroove;
 use super::rigid_body::{Inertia, RigidBody};
 use super::rotor::SpatialRotor;
 use super::row::{CageGuide, lists};
+use super::spring::PreloadSpring;
 use crate::bearing::seat;
 use crate::contact::JournalContact;
 use number::{Gather, Real, Vec3, direction_angle};
@@ -103,6 +104,7 @@ impl AssemblyConstants {
         for (index, row) in self.rows.iter().enumerate() {
             let cage = body(3 + index);
             all.add_body(&over(&row.cage.inertia), &cage, gravity);
+            let outer = self.outer_of(index, outer, state);
             let guide = <CageGuide<f64> as Gather<R>>::gather(&|_| &row.cage.guide);
             all.potential += land_energy(&guide, [&inner, &outer, &cage]);
             let balls = lists(state, self.first_ball_state(index), row.balls);
@@ -114,6 +116,16 @@ impl AssemblyConstants {
                 let bodies = [&inner, &outer, &cage];
                 add_ball(&mut all, &ball, &at, bodies, seat(j, row.balls), tied);
             }
+        }
+        if let Some(spring) = &self.spring {
+            let spring: PreloadSpring<R> = over(spring);
+            let [slid, speed] = [0, 1].map(|k| state[self.first_sliding() + k]);
+            let both = outer.velocity.z + speed;
+            let faster = both.square() - outer.velocity.z.square();
+            all.kinetic += R::splat(0.5) * spring.mass * faster;
+            all.potential += spring.energy(slid) - spring.mass * gravity.z * slid;
+            let along = Vec3::new(R::zero(), R::zero(), spring.mass * speed);
+            all.add_momentum(along, outer.position, Vec3::zero());
         }
         if let Some(rotor) = &self.rotor {
             let body = body(0);

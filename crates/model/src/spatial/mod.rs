@@ -13,6 +13,7 @@
 //! | [`rotor`] | the rigid rotor with its levitation |
 //! | [`assembly`] | rows on shared rings, mount and rotor: states, rates, energy accounts |
 //! | [`arrangement`] | how rows stand, and their preload |
+//! | [`spring`] | a preload by a spring |
 //! | [`part`] | such a bearing as a part of a machine |
 //! | [`record`] | what is watched of it in a run |
 //! | [`energy`] | energies and momenta of an assembly |
@@ -37,12 +38,14 @@ pub mod frame;
 pub mod landing;
 pub mod mount;
 pub mod part;
+pub(crate) mod part_states;
 pub mod pocket;
 pub mod race;
 pub mod record;
 pub mod rigid_body;
 pub mod rotor;
 pub mod row;
+pub mod spring;
 pub mod statics;
 
 pub use arrangement::{RowGeometry, preload_at_rest};
@@ -53,3 +56,4 @@ pub use landing::{Landing, LandingConstants};
 pub use part::{Spatial, SpatialBearing};
 pub use rotor::{SpatialLevitation, SpatialRotor};
 pub use row::{CageConstants, CageGuide, RowConstants, SpatialLand};
+pub use spring::PreloadSpring;

@@ -1,7 +1,8 @@
 //! A bearing in space as a part of a machine: rows on shared rings, the landing surfaces of the inner one, the mount of the outer one.
 //!
 //! ```text
-//!   states   inner ring, outer ring: 13 and the turned angle each;  own: a cage for each row (13), then the rows' balls, nine lists each
+//!   states   inner ring, outer ring: 13 and the turned angle each;  own: a cage for each row (13), then the rows' balls, nine lists each,
+//!            then how far and how fast outer rings slide against a spring
 //!   outer ring   across the axis the mount as in the plane, along it and against tilt [`SpatialMount`]; without tilt it keeps its orientation
 //! ```
 //! Frame: origin at the datum of the bearing, axes of the machine. The rotor's node comes in as a body, the wrench on it goes out, about
@@ -14,16 +15,16 @@ use super::ball::BALL_STATES;
 use super::face_heat::FaceSurfaces;
 use super::landing::{Landing, LandingConstants, LandingReaction};
 use super::mount::SpatialMount;
-use super::preload_at_rest;
 use super::race::{RingMotion, Touch};
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::row::{BallContacts, CageGuide, RowConstants};
 use super::statics::ball::Running;
 use super::statics::{RaceControl, RingLoad, StaticBall, StaticRow, StaticRows};
+use super::{PreloadSpring, preload_at_rest};
 use crate::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, Outlet, probe};
 use crate::base::Masses;
 use crate::bearing::ball_sums::largest;
-use crate::bearing::{self, BearingConstants, RaceContact, seat};
+use crate::bearing::{self, BearingConstants, RaceContact};
 use crate::contact::ContactReaction;
 use crate::heats::HEATS;
 use crate::motion::{Motion, Wrench};
@@ -37,6 +38,8 @@ pub struct SpatialBearing {
     pub rows: Vec<RowConstants>,
     /// Balls and cages in the plane: how they roll.
     pub set: RollingSet<f64>,
+    /// What presses the rows of one side, where a spring does.
+    pub spring: Option<PreloadSpring<f64>>,
     /// Row of the rotation of the rotor's node in it; zero of a point.
     pub rotation: Vec<f64>,
     /// That node's place along the axis from the rotor's centre of mass, m.
@@ -59,36 +62,8 @@ pub struct SpatialBearing {
     pub races: Option<[RaceContact; 2]>,
 }
 
-/// Names of the states of a body in space.
-pub const BODY_NAMES: [&str; BODY_STATES] = [
-    "x",
-    "y",
-    "z",
-    "x_speed",
-    "y_speed",
-    "z_speed",
-    "orientation_w",
-    "orientation_x",
-    "orientation_y",
-    "orientation_z",
-    "x_spin",
-    "y_spin",
-    "speed",
-];
-const BALL_NAMES: [&str; BALL_STATES] = [
-    "radius",
-    "radial_speed",
-    "azimuth",
-    "orbit_speed",
-    "z",
-    "z_speed",
-    "radial_spin",
-    "tangential_spin",
-    "spin",
-];
 /// Among the states of a body: that of its turning about the axis of the frame.
 pub const SPIN: usize = BODY_STATES - 1;
-const AZIMUTH: usize = 2;
 
 impl SpatialBearing {
     /// Number of balls of all rows.
@@ -99,13 +74,15 @@ impl SpatialBearing {
     pub(crate) fn counts(&self) -> Vec<usize> {
         let landing = [self.landing.stations.len(), self.landing.faces.len()];
         let nodes = self.rows.iter().map(|row| row.nodes.len());
-        nodes.chain(landing).collect()
+        // which side a spring presses
+        let spring = self.spring.map_or(0, |own| 1 + usize::from(own.side > 0.0));
+        nodes.chain(landing).chain([spring]).collect()
     }
     /// Displacement of the inner ring under a radial load, N, at rest, m, one ball of each row on the load line; none where no preload
     /// presses its rows, or no equilibrium is found.
     pub fn displacement_of_preloaded(&self, load: f64) -> Option<f64> {
         let pressed: Vec<_> = self.rows.iter().map(|row| (row.balls, row.ball)).collect();
-        if preload_at_rest(&pressed) <= 0.0 {
+        if preload_at_rest(&pressed, self.spring.as_ref()) <= 0.0 {
             return None;
         }
         let rows = pressed.into_iter().map(|(balls, ball)| StaticRow {
@@ -126,99 +103,19 @@ impl SpatialBearing {
             speed: 0.0,
             control: RaceControl::Half,
         };
-        let found = StaticRows(rows.collect()).settle(&radial, &at_rest).ok()?;
+        let rows = StaticRows {
+            rows: rows.collect(),
+            spring: self.spring,
+        };
+        let found = rows.settle(&radial, &at_rest).ok()?;
         Some(found.displacement.shift[0])
     }
-    /// Number of its own states.
-    pub fn states(&self) -> usize {
-        BODY_STATES * self.rows.len() + BALL_STATES * self.balls()
-    }
-    /// Row of a ball, its place in it, and the first state of that row's balls.
-    fn place(&self, ball: usize) -> (&RowConstants, usize, usize) {
-        let (mut first, mut left) = (BODY_STATES * self.rows.len(), ball);
-        for row in &self.rows {
-            if left < row.balls {
-                return (row, left, first);
-            }
-            left -= row.balls;
-            first += BALL_STATES * row.balls;
-        }
-        panic!("a bearing of {} balls has no ball {ball}", self.balls())
-    }
-    /// Channel of the azimuth of a ball among its own states.
-    pub fn azimuth_channel(&self, ball: usize) -> usize {
-        let (row, own, first) = self.place(ball);
-        first + AZIMUTH * row.balls + own
-    }
-    /// Name of one of its states.
-    pub fn state_name(&self, state: usize) -> String {
-        let (row, of) = (state / BODY_STATES, state % BODY_STATES);
-        if row < self.rows.len() {
-            return match row {
-                0 => format!("cage.{}", BODY_NAMES[of]),
-                row => format!("cage_{}.{}", row + 1, BODY_NAMES[of]),
-            };
-        }
-        let (mut ball, mut left) = (0, state - BODY_STATES * self.rows.len());
-        for row in &self.rows {
-            if left < BALL_STATES * row.balls {
-                ball += left % row.balls + 1;
-                return format!("ball_{ball:02}.{}", BALL_NAMES[left / row.balls]);
-            }
-            left -= BALL_STATES * row.balls;
-            ball += row.balls;
-        }
-        panic!("no state {state}")
-    }
-    /// Its own states at rest between concentric rings, with the preload of its rows.
-    pub fn rest(&self, state: &mut [f64]) {
-        state.fill(0.0);
-        let (sine, cosine) = (0.5 * self.first_ball_angle).sin_cos();
-        for (index, row) in self.rows.iter().enumerate() {
-            let cage = &mut state[BODY_STATES * index..];
-            let [_, axial] = row.ball.between_rings();
-            (cage[2], cage[6], cage[9]) = (axial, cosine, sine);
-        }
-        let mut first = BODY_STATES * self.rows.len();
-        for row in &self.rows {
-            let [radius, axial] = row.ball.between_rings();
-            for j in 0..row.balls {
-                let azimuth = self.first_ball_angle + seat(j, row.balls);
-                for (k, value) in [(0, radius), (AZIMUTH, azimuth), (4, axial)] {
-                    state[first + k * row.balls + j] = value;
-                }
-            }
-            first += BALL_STATES * row.balls;
-        }
-    }
-    /// The magnitude that matters in each of its own states; `spin` is a speed of the inner ring, `speed` one of centres.
-    pub fn error_scale(&self, scale: &mut [f64], spin: f64, speed: f64) {
-        let radius = self.rows[0].ball.radius;
-        for index in 0..self.rows.len() {
-            let body = &mut scale[BODY_STATES * index..BODY_STATES * (index + 1)];
-            orientation_scale(body, 1e-4, 0.01 * spin);
-            body[..3].fill(1e-4 * radius);
-            body[3..6].fill(speed);
-            body[SPIN] = 0.01 * spin;
-        }
-        let mut first = BODY_STATES * self.rows.len();
-        for row in &self.rows {
-            let turning = spin * self.set.inner_track_radius / row.ball.radius;
-            let of_list = [
-                1e-4 * radius,
-                speed,
-                1.0,
-                0.01 * spin,
-                1e-4 * radius,
-                speed,
-                turning,
-                turning,
-                turning,
-            ];
-            for value in of_list {
-                scale[first..first + row.balls].fill(value);
-                first += row.balls;
-            }
+    /// The outer ring of a row in these own states.
+    fn outer_of(&self, row: &RowConstants, outer: RigidBody<f64>, state: &[f64]) -> RigidBody<f64> {
+        let at = self.sliding_state();
+        match self.spring.filter(|own| own.presses(&row.ball)) {
+            Some(_) => outer.slid([state[at], state[at + 1]]),
+            None => outer,
         }
     }
     /// Azimuth of a ball, rad.
@@ -232,10 +129,12 @@ impl SpatialBearing {
         state: &[f64],
         mut see: impl FnMut(usize, usize, f64, &[Touch<f64>; 2]),
     ) {
-        let rings = [&motion.inner, &motion.outer].map(|ring| RingMotion::of(&RigidBody::of(ring)));
+        let [inner, outer] = [&motion.inner, &motion.outer].map(RigidBody::of);
+        let inner = RingMotion::of(&inner);
         let (mut first, mut ball) = (BODY_STATES * self.rows.len(), 0);
         for (index, row) in self.rows.iter().enumerate() {
-            for (azimuth, touch) in row.touches([&rings[0], &rings[1]], &state[first..]) {
+            let outer = RingMotion::of(&self.outer_of(row, outer, state));
+            for (azimuth, touch) in row.touches([&inner, &outer], &state[first..]) {
                 see(index, ball, azimuth, &touch);
                 ball += 1;
             }
@@ -247,8 +146,9 @@ impl SpatialBearing {
         let (row, own, first) = self.place(ball);
         let index = (self.rows.iter()).position(|other| std::ptr::eq(other, row));
         let cage = RigidBody::read(&state[BODY_STATES * index.unwrap_or(0)..]);
-        let rings = [&motion.inner, &motion.outer].map(RigidBody::of);
-        row.contacts([&rings[0], &rings[1], &cage], &state[first..], own)
+        let [inner, outer] = [&motion.inner, &motion.outer].map(RigidBody::of);
+        let outer = self.outer_of(row, outer, state);
+        row.contacts([&inner, &outer, &cage], &state[first..], own)
     }
     /// What slip and spin at the contacts of a ball heat: power, W, and the speeds of the surfaces of ball and race past the contact, m/s.
     pub fn sliding(
@@ -298,12 +198,6 @@ impl SpatialBearing {
     }
 }
 
-/// The magnitude that matters in the orientation of a body: of its tilt, rad, and of the rate of that, rad/s; its turn counts whole.
-pub fn orientation_scale(body: &mut [f64], tilt: f64, rate: f64) {
-    body[6..10].copy_from_slice(&[1.0, tilt, tilt, 1.0]);
-    body[10..12].fill(rate);
-}
-
 impl AuxiliaryBearingConstants {
     /// What it is in space, where it is.
     pub fn spatial(&self) -> Option<&SpatialBearing> {
@@ -345,6 +239,7 @@ impl AuxiliaryBearingConstants {
                 mount: own.mount,
             },
             rows: own.rows.clone(),
+            spring: own.spring,
             rotor: None,
         }
     }
@@ -438,7 +333,7 @@ impl<R: Real> Spatial<R> {
         let turning = &rate[inner_at][SPIN - 2..];
         let speed_rate = Vec3::new(turning[0], turning[1], turning[2]).dot(bodies.inner.axis);
         let acceleration = (self.assembly).move_outer(&mut bodies, &mut rate[outer_at]);
-        self.assembly.carry_cages(acceleration, &mut rate[own]);
+        self.assembly.carry(&bodies, acceleration, &mut rate[own]);
         for (body, at) in [(&bodies.inner, at.inner), (&bodies.outer, at.outer)] {
             rate[at.angle()] = body.spin.dot(body.axis);
         }

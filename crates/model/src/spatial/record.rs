@@ -5,6 +5,7 @@
 
 use super::face_heat::FaceHeat;
 use super::part::SpatialBearing;
+use super::spring::PreloadSpring;
 use crate::motion::Motion;
 use crate::system::sampling::Peak;
 use smallvec::SmallVec;
@@ -39,6 +40,10 @@ pub struct SpatialRecord {
     pub first_axial_contact: Option<f64>,
     /// The last instant at which they touched, at the end of a step, s.
     pub last_axial_contact: Option<f64>,
+    /// Largest force of a spring that presses rows and largest size below its preload, N, at the ends of the steps.
+    pub spring_forces: [Peak; 2],
+    /// When it was first free, and first solid, s.
+    pub spring_ends: [Option<f64>; 2],
     /// How hot shoulder and face became.
     pub face_heat: FaceHeat,
     /// Which rows have carried something.
@@ -55,6 +60,8 @@ impl SpatialRecord {
             axial_force: Peak::NONE,
             first_axial_contact: None,
             last_axial_contact: None,
+            spring_forces: [Peak::NONE; 2],
+            spring_ends: [None; 2],
             face_heat: FaceHeat::default(),
             loaded: vec![false; bearing.rows.len()],
         }
@@ -73,6 +80,18 @@ impl SpatialRecord {
             false => 0.0,
         };
         self.first_axial_contact = Some(times[0] + share * (times[1] - times[0]));
+    }
+    /// Sees a spring whose ring has slid, m, at the end of a step.
+    pub fn spring(&mut self, spring: &PreloadSpring<f64>, time: f64, slid: f64) {
+        let force = spring.force(slid);
+        self.spring_forces[0].raise(force, time);
+        self.spring_forces[1].raise(spring.preload - force, time);
+        let solid = spring.side * slid > spring.travel;
+        for (own, comes) in self.spring_ends.iter_mut().zip([force <= 0.0, solid]) {
+            if comes {
+                own.get_or_insert(time);
+            }
+        }
     }
     /// Looks at the balls.
     pub fn look(

@@ -121,6 +121,13 @@ impl<R: Real> RigidBody<R> {
             axis,
         }
     }
+    /// The same body moved along the axis of the frame, m, and faster along it, m/s.
+    #[inline(always)]
+    pub(super) fn slid(mut self, [by, faster]: [R; 2]) -> Self {
+        self.position.z += by;
+        self.velocity.z += faster;
+        self
+    }
     /// A body whose motion a part sees: its turn about the axis is not known.
     pub fn of(body: &Body<R>) -> Self {
         let (one, zero) = (R::one(), R::zero());

@@ -122,6 +122,9 @@ fn with_machines() -> Vec<AssemblyConstants> {
     let mut held = machine(bearing(X, FOUR, &legendre(3), Guide::Outer), true);
     held.inner.held = true;
     all.push(held);
+    let mut soft = sprung();
+    soft.spring.as_mut().unwrap().travel = f64::INFINITY;
+    all.extend([sprung(), soft]);
     all
 }
 
@@ -228,9 +231,13 @@ fn at_rest_every_force_is_the_slope_of_the_potential() {
                         mass += machine.rows[row].cage.inertia.mass;
                     }
                 }
+                // rings that slide are a part of the outer ring
+                let sliding = machine.spring.filter(|_| body == 2 && k == 2);
+                let beside =
+                    sliding.map_or(0.0, |own| own.mass * rate[machine.first_sliding() + 1]);
                 if !(held || tied && body > 2) {
                     compare(
-                        mass * rate[at + 3 + k],
+                        mass * rate[at + 3 + k] + beside,
                         slope(&changes),
                         format!("{body} x{k}"),
                     );
@@ -272,6 +279,11 @@ fn at_rest_every_force_is_the_slope_of_the_potential() {
                     format!("{body} turn {about:?}"),
                 );
             }
+        }
+        if let Some(spring) = machine.spring {
+            let at = machine.first_sliding();
+            let whole = rate[at + 1] + rate[machine.body(2) + 5];
+            compare(spring.mass * whole, slope(&[(at, 1.0)]), "slides".into());
         }
         for (index, row) in machine.rows.iter().enumerate() {
             for j in 0..row.balls {

@@ -61,6 +61,7 @@ fn of(assembly: &AssemblyConstants, lever: f64) -> MachineConstants {
     (mount.radial_stiffness, mount.radial_damping) = (0.0, 0.0);
     part.bearing = BearingConstants::Spatial(SpatialBearing {
         rows: assembly.rows.clone(),
+        spring: assembly.spring,
         set: RollingSet {
             inner_track_radius: 14.8e-3,
             ball_ratio: 0.21,
@@ -83,7 +84,10 @@ fn of(assembly: &AssemblyConstants, lever: f64) -> MachineConstants {
 
 /// An assembly with mount and rotor on one pair, without what a machine has not.
 fn pair(guide: Guide) -> AssemblyConstants {
-    let mut all = machine(bearing(O, TANH, &matched(8.0), guide), true);
+    without(machine(bearing(O, TANH, &matched(8.0), guide), true))
+}
+
+fn without(mut all: AssemblyConstants) -> AssemblyConstants {
     all.inner.force = Vec3::zero();
     all.inner.moment = Vec3::zero();
     (all.inner.settling, all.inner.tilt_settling) = (0.0, 0.0);
@@ -108,8 +112,12 @@ fn places(assembly: &AssemblyConstants, machine: &RotorMachine) -> Vec<(usize, u
 #[test]
 fn a_machine_and_an_assembly_with_a_rigid_rotor_agree() {
     let mut random = Random(7);
-    for guide in [Guide::Tied, Guide::Balls, Guide::Outer] {
-        let assembly = pair(guide);
+    for assembly in [
+        pair(Guide::Tied),
+        pair(Guide::Balls),
+        pair(Guide::Outer),
+        without(sprung()),
+    ] {
         let machine = RotorMachine::new(of(&assembly, 0.0));
         for _ in 0..4 {
             let mut given = random_state(&assembly, &mut random, 1.0);
@@ -215,8 +223,11 @@ fn machines_with_other_landing_surfaces_share_no_lanes() {
 
 #[test]
 fn energy_and_angular_momentum_close_through_a_drop_in_space() {
-    for (guide, lever, unbalance) in [(Guide::Tied, 0.0, 0.0), (Guide::Balls, 0.02, 5e-6)] {
-        let mut assembly = pair(guide);
+    for (mut assembly, lever, unbalance) in [
+        (pair(Guide::Tied), 0.0, 0.0),
+        (pair(Guide::Balls), 0.02, 5e-6),
+        (without(sprung()), 0.0, 0.0),
+    ] {
         let rotor = assembly.rotor.as_mut().unwrap();
         rotor.landing.contact.radial_clearance = 5e-5;
         for face in &mut rotor.landing.faces {

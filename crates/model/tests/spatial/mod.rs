@@ -6,5 +6,6 @@ mod closed_forms;
 mod in_machine;
 mod planar_limit;
 mod setup;
+mod springs;
 mod statics;
 mod turning;

@@ -10,7 +10,7 @@ use model::spatial::race::RaceGroove;
 use model::spatial::rigid_body::Inertia;
 use model::spatial::{
     AssemblyConstants, CageConstants, CageGuide, InnerRing, LandingConstants, OuterRing,
-    RowConstants, SpatialBall, SpatialLand, SpatialRotor,
+    PreloadSpring, RowConstants, SpatialBall, SpatialLand, SpatialRotor,
 };
 use number::Vec3;
 use physics::contact_nodes::{ContactNode, legendre, matched, middle};
@@ -214,6 +214,7 @@ pub fn bearing(
         rows: rows
             .map(|(place, sign)| row(*place, *sign, traction, nodes, guide))
             .collect(),
+        spring: None,
         rotor: None,
     }
 }
@@ -277,6 +278,21 @@ pub fn machine(mut bearing: AssemblyConstants, tilted: bool) -> AssemblyConstant
     };
     bearing.outer.mount.free_position = bearing.balanced_free_position();
     bearing
+}
+
+/// The same, tied cages, the rows of one side on a spring that has just become solid.
+pub fn sprung() -> AssemblyConstants {
+    let mut pair = machine(bearing(O, TANH, &matched(8.0), Guide::Tied), true);
+    pair.spring = Some(PreloadSpring {
+        side: -1.0,
+        preload: 90.0,
+        stiffness: 1e6,
+        travel: -5e-6,
+        stop_stiffness: 2e8,
+        stop_damping: 0.5,
+        mass: 0.04,
+    });
+    pair
 }
 
 pub fn face_nodes(count: usize) -> Vec<[f64; 2]> {
@@ -363,10 +379,11 @@ pub fn random_state(machine: &AssemblyConstants, random: &mut Random, moving: f6
             }
         }
     }
-    assert_eq!(
-        machine.first_account(),
-        machine.first_ball_state(machine.rows.len())
-    );
+    if machine.spring.is_some() {
+        let at = machine.first_sliding();
+        state[at] = 3e-6 * random.next();
+        state[at + 1] = 0.05 * moving * random.next();
+    }
     state
 }
 

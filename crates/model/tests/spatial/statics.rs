@@ -17,12 +17,12 @@ use physics::load_zone::joint_stiffness;
 use physics::materials::{BEARING_STEEL, ball_mass, contact_modulus};
 use physics::traction::{TanhTraction, Traction};
 
-const BALL: f64 = 6.35e-3;
-const ALPHA: f64 = 24.0 * std::f64::consts::PI / 180.0;
-const B: f64 = 0.04 * BALL;
+pub const BALL: f64 = 6.35e-3;
+pub const ALPHA: f64 = 24.0 * std::f64::consts::PI / 180.0;
+pub const B: f64 = 0.04 * BALL;
 
 /// 14 balls of 6.35 mm, groove curvature 0.52, 24°: the bearing of the reference's quasi-static files.
-fn row(friction: f64) -> RowConstants {
+pub fn row(friction: f64) -> RowConstants {
     let inner = 14.825e-3;
     let outer_centre = inner + 0.52 * BALL - B * ALPHA.cos();
     let modulus = contact_modulus(BEARING_STEEL, BEARING_STEEL);
@@ -63,7 +63,7 @@ fn row(friction: f64) -> RowConstants {
     row
 }
 
-fn static_row(row: &RowConstants) -> StaticRow {
+pub fn static_row(row: &RowConstants) -> StaticRow {
     StaticRow {
         balls: row.balls,
         first_azimuth: 0.0,
@@ -76,12 +76,12 @@ fn static_row(row: &RowConstants) -> StaticRow {
     }
 }
 
-const REST: Running = Running {
+pub const REST: Running = Running {
     speed: 0.0,
     control: RaceControl::Outer,
 };
 
-fn axial(force: f64) -> RingLoad {
+pub fn axial(force: f64) -> RingLoad {
     RingLoad {
         force: [0.0, 0.0, force],
         moment: [0.0; 2],
@@ -98,7 +98,7 @@ fn the_constants_are_those_of_the_reference() {
 #[test]
 fn a_pure_axial_load_at_rest_has_the_closed_form() {
     let row = row(0.07);
-    let rows = StaticRows(vec![static_row(&row)]);
+    let rows = StaticRows::from(vec![static_row(&row)]);
     let stiffness = joint_stiffness(row.ball.inner.stiffness, row.ball.outer.stiffness);
     for angle in [ALPHA + 1e-3, ALPHA + 0.02, ALPHA + 0.1] {
         let [load, displacement] = pure_axial_load(14, stiffness, B, ALPHA, angle);
@@ -126,7 +126,7 @@ fn the_preload_of_a_pair_has_the_closed_form() {
             own.ball.outer.place = side * 6e-3 - b;
             own
         });
-        let found = StaticRows(pair.to_vec())
+        let found = StaticRows::from(pair.to_vec())
             .at(Default::default(), &REST)
             .unwrap();
         let thrust = |row: usize| {
@@ -147,7 +147,7 @@ fn the_preload_of_a_pair_has_the_closed_form() {
 #[test]
 fn stiffness_is_the_slope_of_the_reaction() {
     let row = row(0.07);
-    let rows = StaticRows(vec![static_row(&row)]);
+    let rows = StaticRows::from(vec![static_row(&row)]);
     let load = RingLoad {
         force: [200.0, 50.0, 300.0],
         moment: [0.3, -0.2],
@@ -183,7 +183,7 @@ fn stiffness_is_the_slope_of_the_reaction() {
 #[test]
 fn equilibria_are_found_where_balls_can_take_their_gyroscopic_moment() {
     let row = row(0.07);
-    let rows = StaticRows(vec![static_row(&row)]);
+    let rows = StaticRows::from(vec![static_row(&row)]);
     let mut lost = 0;
     for axial in [5.0, 20.0, 60.0, 200.0] {
         for radial in [0.0, 20.0, 100.0, 300.0] {
@@ -221,7 +221,7 @@ fn equilibria_are_found_where_balls_can_take_their_gyroscopic_moment() {
 #[test]
 fn dynamics_at_rest_settle_on_the_equilibrium() {
     let row = row(0.07);
-    let rows = StaticRows(vec![static_row(&row)]);
+    let rows = StaticRows::from(vec![static_row(&row)]);
     let load = |share: f64| RingLoad {
         force: [share * 60.0, 0.0, share * 300.0],
         moment: [0.0, share * 0.4],
@@ -430,10 +430,10 @@ fn a_set_at_rest_carries_its_preload_on_both_sides() {
                 "{signs:?} {thrust}"
             );
         }
-        assert!((preload_at_rest(&rows(closed)) / preload - 1.0).abs() < 1e-9);
+        assert!((preload_at_rest(&rows(closed), None) / preload - 1.0).abs() < 1e-9);
         // what one side is closed by less the other side takes over, whatever the place of the ring
         let moved = [closed[0] + 1e-6, closed[1] - 1e-6];
-        assert!((preload_at_rest(&rows(moved)) / preload - 1.0).abs() < 1e-9);
-        assert!(preload_at_rest(&rows([-1e-6; 2])) < 1e-12);
+        assert!((preload_at_rest(&rows(moved), None) / preload - 1.0).abs() < 1e-9);
+        assert!(preload_at_rest(&rows([-1e-6; 2]), None) < 1e-12);
     }
 }

@@ -132,6 +132,40 @@ impl Context<'_> {
             let needed = "\"balls\", \"inner land\" or \"outer land\" is needed beside mount.tilt_stiffness: a cage that is centred on the outer ring keeps its orientation";
             return refuse("bearing.cage.guidance", needed);
         }
+        // between the bore and the balls: the face of the inner ring
+        let pitch = part
+            .bearing
+            .as_ref()
+            .map_or(f64::INFINITY, |own| own.pitch_diameter);
+        let ring = 0.5 * part.contact.bore_diameter..0.5 * pitch;
+        if let Some(radius) = part.contact.faces.radius.filter(|own| !ring.contains(own)) {
+            let found = format!(
+                "{:.2} mm, where no shoulder meets a face of the inner ring",
+                1e3 * radius
+            );
+            let needed = format!(
+                "{:.2} to {:.2} mm is needed, between the bore and the balls",
+                1e3 * ring.start,
+                1e3 * ring.end
+            );
+            return self.refuse(Code::OutOfRange, "contact.face_radius", found, needed);
+        }
+        let spring = (part.bearing.as_ref()).and_then(|own| own.spatial?.spring);
+        if let Some(spring) = spring {
+            const STIFFNESS: &str = "bearing.preload_spring_stiffness";
+            if part.mount.tilt.is_some() {
+                let needed = "none is needed beside mount.tilt_stiffness: outer rings that slide against a spring keep their orientation";
+                return refuse(STIFFNESS, needed);
+            }
+            if spring.mass >= part.mount.moving_mass {
+                let found = format!("{} kg of outer rings that slide", spring.mass);
+                let needed = format!(
+                    "less than mount.moving_mass = {} kg is needed: they are a part of it (without bearing.preload_spring_mass they have that of the inner rings)",
+                    part.mount.moving_mass
+                );
+                return self.refuse(Code::Conflict, STIFFNESS, found, needed);
+            }
+        }
         if self.values.text("mount.on").is_some() {
             let needed = "a mount on ground is needed beside bearing.fidelity = \"spatial\"";
             return refuse("mount.on", needed);

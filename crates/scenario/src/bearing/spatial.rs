@@ -65,10 +65,35 @@ pub struct Spatial {
     pub thrust_side: ThrustSide,
     /// Width of a row, m, where the catalogue knows it.
     pub row_width: Option<f64>,
+    /// What presses the rows of one side, where a spring does.
+    pub spring: Option<PreloadSpring>,
     /// Points of a contact at which slip is taken.
     pub nodes: ContactNodes,
     /// Height of the groove's shoulder above its bottom, m, where the run-over is watched.
     pub shoulder_height: Option<f64>,
+}
+
+/// A spring that presses rows of one side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PreloadSpring {
+    /// N/m.
+    pub stiffness: f64,
+    /// Thrust that its rows carry.
+    pub side: ThrustSide,
+    /// Compression beyond that of the preload until it is solid, m; none where it never is.
+    pub travel: Option<f64>,
+    /// Mass of the outer rings that slide, kg.
+    pub mass: f64,
+}
+
+impl ThrustSide {
+    /// +1 towards the end of the shaft.
+    pub fn sign(self) -> f64 {
+        match self {
+            ThrustSide::End => 1.0,
+            ThrustSide::Start => -1.0,
+        }
+    }
 }
 
 impl Arrangement {
@@ -111,7 +136,8 @@ impl Spatial {
     }
 
     pub(super) fn of(values: &Values, bearing: &Section<'_>) -> Self {
-        Spatial {
+        let mut own = Spatial {
+            spring: None,
             arrangement: bearing.choice("arrangement"),
             row_spacing: (bearing.maybe("row_spacing"))
                 .or_else(|| values.dimension("width"))
@@ -120,6 +146,23 @@ impl Spatial {
             row_width: values.dimension("width"),
             nodes: bearing.choice("contact_nodes"),
             shoulder_height: bearing.maybe("shoulder_height"),
-        }
+        };
+        own.spring = bearing.maybe("preload_spring_stiffness").map(|stiffness| {
+            let chosen = bearing.chosen("preload_spring_side");
+            let side: ThrustSide = chosen.unwrap_or(ThrustSide::Start);
+            let rows = own
+                .signs()
+                .iter()
+                .filter(|sign| **sign == side.sign())
+                .count();
+            let rings = bearing.maybe("inner_race_mass").unwrap_or(0.0) * rows as f64;
+            PreloadSpring {
+                stiffness,
+                side,
+                travel: bearing.maybe("preload_spring_travel"),
+                mass: bearing.maybe("preload_spring_mass").unwrap_or(rings),
+            }
+        });
+        own
     }
 }

@@ -113,6 +113,8 @@ impl<'a> Table<'a> {
             [LARGEST_POCKET_FORCE, LAND_FORCE, AXIAL_FORCE].map(|kind| at.probe(kind));
         let guided = bearing.may_make("cage_land_friction");
         let turns = bearing.outer_inertias.is_some();
+        let sliding = at.own().start + bearing.sliding_state();
+        let (springs, spring) = (bearing.spring.is_some(), bearing.spring);
         columns! { self.columns, |row|
             "bearing.inner_race.z": "m", "inner ring along the axis, towards the end of the shaft" => at.motion(row.state).inner.axial;
             "bearing.inner_race.tilt_x": "rad", "tilt of the inner ring about x" => at.motion(row.state).inner.tilt.x;
@@ -120,6 +122,8 @@ impl<'a> Table<'a> {
             "bearing.outer_race.z": "m", "outer rings along the axis, towards the end of the shaft" => at.motion(row.state).outer.axial;
             "bearing.outer_race.tilt_x": "rad", "tilt of the outer rings about x" when turns => at.motion(row.state).outer.tilt.x;
             "bearing.outer_race.tilt_y": "rad", "tilt of the outer rings about y" when turns => at.motion(row.state).outer.tilt.y;
+            "bearing.sliding_outer_race.z": "m", "outer rings on the preload spring along the axis, beside the others" when springs => row.state[sliding];
+            "bearing.preload_spring.force": "N", "force of the preload spring" when springs => spring.map_or(f64::NAN, |own| own.force(row.state[sliding]));
             "bearing.contact.axial_force": "N", "force between shoulders of the rotor and faces of the inner ring" when bearing.stops() => row.probe[force];
             "bearing.cage.largest_pocket_force": "N", "largest force between a ball and its pocket" => row.probe[pocket];
             "bearing.cage.land_force": "N", "normal force of cages and lands" when guided => row.probe[land];

@@ -16,7 +16,7 @@ use crate::coast_down::build::{ICE_POINT, network, unpreloaded};
 use model::bearing::BearingConstants;
 use model::spatial::ball::{Expansion, SpatialBall};
 use model::spatial::part::SpatialBearing;
-use model::spatial::preload_at_rest;
+use model::spatial::{PreloadSpring, preload_at_rest};
 use model::system::energy::{Content, Flows};
 use number::{Vec2, Vec3};
 use physics::viscosity::Viscosity;
@@ -44,6 +44,8 @@ pub(crate) struct Follows {
     start: f64,
     /// Rows in space that press on each other, at the start: balls of each, and one of them.
     pressing: Option<Vec<(usize, SpatialBall<f64>)>>,
+    /// The spring that presses them, where one does.
+    spring: Option<PreloadSpring<f64>>,
 }
 
 impl Follows {
@@ -57,6 +59,7 @@ impl Follows {
             zone,
             start: warm.heat.start_temperature - ICE_POINT,
             pressing: pressing(bearing),
+            spring: spatial::spring(bearing),
         };
         let any = follows.thins(bearing)
             || follows.closes(bearing)
@@ -105,7 +108,7 @@ impl Follows {
         let rows: Vec<_> = rows
             .map(|(balls, ball)| (*balls, ball.expanded(&by)))
             .collect();
-        Some(preload_at_rest(&rows))
+        Some(preload_at_rest(&rows, self.spring.as_ref()))
     }
 
     /// Contact angle at these temperatures (°C), rad: cos α = 1 − P_d/(2A), of which P_d changes; A = (f_i + f_o − 1) D.

@@ -11,7 +11,8 @@ use model::spatial::part::SpatialBearing;
 use model::spatial::pocket::SpatialPocket;
 use model::spatial::rigid_body::Inertia;
 use model::spatial::{
-    CageConstants, CageGuide, LandingConstants, RowConstants, RowGeometry, SpatialLand,
+    CageConstants, CageGuide, LandingConstants, PreloadSpring, RowConstants, RowGeometry,
+    SpatialLand,
 };
 use number::Vec3;
 use physics::contact_nodes::{ContactNode, legendre, matched, middle};
@@ -32,6 +33,8 @@ const CAGE_TRANSVERSE: f64 = 0.55;
 const HALF_LAND: f64 = 2e-3;
 /// Width of a row over its ball diameter where the bearing's is not known.
 const WIDTH: f64 = 1.6;
+/// Stiffness, N/m, and damping, s/m, of a spring that is solid: assumed, those of a shoulder on a face.
+const SOLID: [f64; 2] = [2e8, 0.5];
 /// Nodes of a face: tilt stiffness and friction torque of a ring of contact need eight.
 const FACE_NODES: usize = 12;
 
@@ -77,6 +80,7 @@ pub(crate) fn bearing(
             balls_mass: count * given.rolling_set().balls_mass,
             ..given.rolling_set()
         },
+        spring: spring(given),
         rotation: vec![0.0],
         lever: 0.0,
         inner_transverse: 0.5 * inertia + mass * whole * whole / 12.0,
@@ -102,6 +106,21 @@ pub(crate) fn bearing(
         face_surfaces: face_surfaces(part, given),
         races: Some(contacts.races(given)),
         rows,
+    })
+}
+
+/// What presses the rows of one side, where a spring does.
+pub(crate) fn spring(given: &Bearing) -> Option<PreloadSpring<f64>> {
+    let own = given.spatial?.spring?;
+    let [stop_stiffness, stop_damping] = SOLID;
+    Some(PreloadSpring {
+        side: own.side.sign(),
+        preload: given.axial_preload,
+        stiffness: own.stiffness,
+        travel: own.travel.unwrap_or(f64::INFINITY),
+        stop_stiffness,
+        stop_damping,
+        mass: own.mass,
     })
 }
 

@@ -53,6 +53,10 @@ problem::warnings! {
             ("Row {row} carries nothing at {:.2} ms: its balls are held by the outer race alone, slow down against the others and skid when they are pressed again. More preload keeps a row pressed.", 1e3 * time);
         RunOver { ball: "", race: words, time: "s", angle: "rad", load: "N" } "AB2412" Destroys, each
             ("The contact ellipse of ball {ball} reaches over the shoulder of the {race} groove at {:.2} ms (contact angle {:.0} deg, {load:.0} N): the stress at that edge is not computed and may be several times that of the ellipse. From there on loads and angles are those of a groove that goes on.", 1e3 * time, angle.to_degrees());
+        SpringFree { time: "s", preload: "N", stiffness: "N/m" } "AB2418" Uncertain, each
+            ("The preload spring is free at {:.2} ms: its rings have moved by the {:.0} um that it was compressed by ({preload:.0} N, {stiffness:.2e} N/m), and its rows carry nothing. More preload or a softer spring keeps them pressed.", 1e3 * time, 1e6 * preload / stiffness);
+        SpringSolid { time: "s", travel: "m", force: "N" } "AB2419" Uncertain, each
+            ("The preload spring is solid at {:.2} ms, after {:.0} um: thrust goes through it into a stop of assumed stiffness, up to {force:.0} N, and the rotor has moved along its axis by that much more. Choose bearing.preload_spring_side so that thrust goes into the rows that stand.", 1e3 * time, 1e6 * travel);
         HotFace { rise: "K", time: "s" } "AB2416" Destroys, each by "face_temperature_rise"
             ("Where shoulder and face rub, their surfaces warm by {rise:.0} K in the mean ({:.2} ms), edges that touch first by far more: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.", 1e3 * time);
         NoThrust { moved: "m" } "AB2413" Invalid, each

@@ -13,8 +13,8 @@ use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
 use model::auxiliary_bearing::probe::AXIAL_FORCE;
-use model::spatial::SpatialBearing;
 use model::spatial::record::SpatialRecord;
+use model::spatial::{PreloadSpring, SpatialBearing};
 use model::system::energy::{Content, Flows};
 use model::system::machine::record::BearingRecord;
 use outcome::Quantity;
@@ -198,6 +198,13 @@ impl<'a> Landed<'a> {
             .map(|time| time.map_or(f64::NAN, |time| self.after(time)))
             .collect()
     }
+    /// What is watched of a preload spring.
+    fn spring(&self, of: impl Fn(&PreloadSpring<f64>, &SpatialRecord) -> f64) -> f64 {
+        let part = &self.context.setup.machine.constants.bearings[self.k];
+        let spring = part.spatial().and_then(|own| own.spring);
+        let both = spring.zip(self.record.spatial.as_deref());
+        both.map_or(f64::NAN, |(spring, own)| of(&spring, own))
+    }
     fn run_over(&self) -> Result<f64, String> {
         let own = self.record.spatial.as_deref().and_then(|own| own.run_over);
         let none = || "no contact reached the shoulder of its groove".to_string();
@@ -273,6 +280,12 @@ results! {
         "peak_outer_contact_angle": number "rad", ANGLES, "largest contact angle at the outer race" in axial "outer race" => run.angle(1);
         "row_unloaded_times": list "s", UNLOADED, "when each row first carried nothing, by its place along the shaft; NaN where it always did" when setup.rows.len() > 1 => {
             run.unloaded()
+        };
+        "smallest_preload_spring_force": number "N", SPRING, "smallest force of the preload spring" when setup.spring.is_some() => {
+            run.spring(|spring, own| spring.preload - own.spring_forces[1].value)
+        };
+        "largest_preload_spring_force": number "N", SPRING, "largest force of the preload spring" when setup.spring.is_some() => {
+            run.spring(|_, own| own.spring_forces[0].value)
         };
         "shoulder_run_over_time": instant "s", RUN_OVER, "when a contact ellipse first reached over the shoulder of its groove" in instants_after_release "over shoulder", unless {
             not_given("bearing.shoulder_height", setup.groove_ends)
@@ -477,6 +490,9 @@ origins! {
     UNLOADED: law "first look at which no ball of a row is pressed by its inner race, of a row that had one",
         source "crates/model/src/spatial/record.rs",
         valid "eight looks a turn, more where loads change";
+    SPRING: law "(F0 + k c)₊ of its compression c beyond that of the preload F0, and the force of the stop where it is solid, at the ends of the steps",
+        source "crates/model/src/spatial/spring.rs; book/src/theory/spatial.md",
+        valid "a massless linear spring; outer rings that slide without friction";
     RUN_OVER: law "|α| + a_H/r > acos(1 - h/r_g): the ellipse reaches the shoulder",
         source "derived, book/src/theory/spatial.md, crates/model/src/spatial/record.rs",
         valid "errs to the safe side by 4 %; from there on the stress at the edge is not known, and the contact is computed as if its groove went on";

@@ -196,6 +196,33 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
         let row = row as f64 + 1.0;
         list.push((-time, SpatialWarning::RowUnloaded { row, time }.into()));
     }
+    let part = &context.setup.machine.constants.bearings[k];
+    if let Some(spring) = part.spatial().and_then(|own| own.spring) {
+        let [free, solid] = own.spring_ends;
+        let (preload, stiffness) = (spring.preload, spring.stiffness);
+        let (travel, force) = (spring.travel, own.spring_forces[0].value);
+        let warn = |time: f64, warning: SpatialWarning| (-time, warning.into());
+        list.extend(free.map(|time| {
+            warn(
+                time,
+                SpatialWarning::SpringFree {
+                    time,
+                    preload,
+                    stiffness,
+                },
+            )
+        }));
+        list.extend(solid.map(|time| {
+            warn(
+                time,
+                SpatialWarning::SpringSolid {
+                    time,
+                    travel,
+                    force,
+                },
+            )
+        }));
+    }
     let Peak { value: rise, time } = own.face_heat.rise;
     if rise > STEEL_CHANGES {
         list.push((rise, SpatialWarning::HotFace { rise, time }.into()));
@@ -204,7 +231,6 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
         .largest_angles
         .iter()
         .fold(0.0, |m: f64, own| m.max(own.value));
-    let part = &context.setup.machine.constants.bearings[k];
     if part.spatial().is_some_and(|own| own.groove_ends.is_none()) {
         list.push((angle, SpatialWarning::ShoulderUnknown { angle }.into()));
     }

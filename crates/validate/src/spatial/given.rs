@@ -105,6 +105,7 @@ impl Params<'_> {
                 },
             },
             rows: rows?,
+            spring: None,
             rotor: if self.is("rotor")? {
                 Some(self.rotor()?)
             } else {

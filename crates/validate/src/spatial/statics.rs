@@ -88,7 +88,7 @@ pub(super) fn quasi_static(value: &Value) -> Result<Vec<Row>, String> {
             let params = Params(&value[format!("params_{balls}")]);
             let row = static_row(&params, None)?;
             let running = running(given)?;
-            let rows = StaticRows(vec![row]);
+            let rows = StaticRows::from(vec![row]);
             let mut kind = Kind {
                 worst,
                 place: &place,
@@ -224,7 +224,9 @@ fn duplex(given: &Value, params: &Params, kind: &mut Kind) -> Result<(), String>
         shift: [u[0], u[1], u[2]],
         tilt: [u[3], u[4]],
     };
-    let found = StaticRows(rows?).at(at, &running(given)?).map_err(told)?;
+    let found = StaticRows::from(rows?)
+        .at(at, &running(given)?)
+        .map_err(told)?;
     let thrust = |balls: &Vec<BallEquilibrium>| {
         balls
             .iter()
@@ -347,7 +349,7 @@ fn iso_row(
         half_axis: axis_over_root_approach(contact),
         half_curvature: 0.5 / contact_surface_radius(0.5 * diameter, curvature * diameter),
     };
-    let rows = StaticRows(vec![StaticRow {
+    let rows = StaticRows::from(vec![StaticRow {
         balls,
         first_azimuth: 0.0,
         ball: StaticBall {

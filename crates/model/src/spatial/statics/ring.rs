@@ -3,12 +3,15 @@
 //! ```text
 //!   Σ F_j + F = 0 (x, y, z),  Σ M_j + M = 0 (about x, y)           by damped Newton steps from the loaded side
 //!   K = -∂(ΣF, ΣM)/∂u, the balls following: exact derivatives
+//!   outer rings that slide by s against a spring   T(u_z - s) = F(σ s),  T = -σ ΣF_z of their rows at the displacement from them;
+//!     their derivatives A(u - s e_z) give ds/du = A_z/(A_zz - F′), and the rows yield by A - A e_z ds/du
 //! ```
 //! From afar there is a mirrored solution, the ring pushed through the clearance: steps are short and start where the load closes
 //! the contacts.
 
 use super::ball::{BallEquilibrium, Running, StaticBall};
 use super::linear::{Balance, Reaction};
+use crate::spatial::spring::PreloadSpring;
 use std::f64::consts::TAU;
 use std::fmt;
 
@@ -25,7 +28,20 @@ pub struct StaticRow {
 
 /// Rows on shared rings.
 #[derive(Clone, Debug, PartialEq)]
-pub struct StaticRows(pub Vec<StaticRow>);
+pub struct StaticRows {
+    /// The rows.
+    pub rows: Vec<StaticRow>,
+    /// What presses those of one side, where a spring does.
+    pub spring: Option<PreloadSpring<f64>>,
+}
+
+impl From<Vec<StaticRow>> for StaticRows {
+    /// Rows whose outer rings stand.
+    fn from(rows: Vec<StaticRow>) -> Self {
+        let spring = None;
+        StaticRows { rows, spring }
+    }
+}
 
 /// Load on the inner ring.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -78,6 +94,8 @@ pub struct Equilibrium {
     pub stiffness: [[f64; 5]; 5],
     /// What the balls do to the ring.
     pub reaction: [f64; 5],
+    /// How far outer rings have slid against a spring, m.
+    pub slid: f64,
 }
 
 /// Why there is no equilibrium.
@@ -100,8 +118,13 @@ impl fmt::Display for NoEquilibrium {
 
 impl std::error::Error for NoEquilibrium {}
 
-/// Load on a ring, its slope, and what each ball does.
-type Sum = Reaction<Vec<Vec<BallEquilibrium>>>;
+/// Load on a ring, its slope, what each ball does and how far outer rings have slid.
+type Sum = Reaction<(Vec<Vec<BallEquilibrium>>, f64)>;
+
+/// Steps of outer rings that slide: the longest, m, and one that rounding hides, m.
+const SLIDES: [f64; 2] = [5e-6, 1e-17];
+/// Share of the force of a spring to which its rows balance it.
+const BALANCED: f64 = 1e-12;
 
 impl StaticRows {
     /// Balls and stiffness at a given displacement.
@@ -114,9 +137,11 @@ impl StaticRows {
         Ok(self.equilibrium(displacement, at))
     }
     fn equilibrium(&self, displacement: Displacement, at: Sum) -> Equilibrium {
+        let (rows, slid) = at.found;
         Equilibrium {
             displacement,
-            rows: at.found,
+            rows,
+            slid,
             stiffness: at.slope.map(|row| row.map(|slope| -slope)),
             reaction: at.load,
         }
@@ -150,15 +175,15 @@ impl StaticRows {
         load: &RingLoad,
         running: &Running,
     ) -> Result<Equilibrium, NoEquilibrium> {
-        let row = &self.0[0];
+        let row = &self.rows[0];
         let balance = Balance {
             outside: load.to_array(),
             arm: row.ball.inner.centre_radius,
             stiffness: row.balls as f64 * row.ball.inner.stiffness * 1e-3,
         };
-        let mut near: Option<Vec<Vec<BallEquilibrium>>> = None;
+        let mut near: Option<(Vec<Vec<BallEquilibrium>>, f64)> = None;
         let (u, at) = balance.find(start, |u| {
-            let sum = self.sum(u, running, near.as_deref())?;
+            let sum = self.sum(u, running, near.as_ref())?;
             near = Some(sum.found.clone());
             Ok(sum)
         })?;
@@ -169,7 +194,7 @@ impl StaticRows {
     fn start(&self, load: &RingLoad) -> [f64; 5] {
         let close = 1e-6;
         let mut start = [0.0; 5];
-        let row = &self.0[0].ball;
+        let row = &self.rows[0].ball;
         let slack = row.inner.slack + row.outer.slack;
         let radial = row.inner.centre_radius - row.outer.centre_radius;
         let play = (slack - radial).max(0.0);
@@ -183,7 +208,7 @@ impl StaticRows {
         let loaded = turned(load.force[2]);
         if loaded != 0.0 {
             // of all rows the one that the load closes first
-            let places = self.0.iter().map(|row| {
+            let places = self.rows.iter().map(|row| {
                 let ball = row.ball;
                 loaded * axial - (ball.inner.place - ball.outer.place)
             });
@@ -206,16 +231,91 @@ impl StaticRows {
         &self,
         u: [f64; 5],
         running: &Running,
+        near: Option<&(Vec<Vec<BallEquilibrium>>, f64)>,
+    ) -> Result<Sum, NoEquilibrium> {
+        let (rows, slid) = match near {
+            Some((rows, slid)) => (Some(&rows[..]), *slid),
+            None => (None, 0.0),
+        };
+        let Some(spring) = &self.spring else {
+            return self.side(u, running, rows, |_| true);
+        };
+        let slides = |row: &StaticRow| spring.carries([&row.ball.inner, &row.ball.outer]);
+        let mut fixed = self.side(u, running, rows, |row| !slides(row))?;
+        let (sliding, slid) = self.slide(spring, slid, |slid| {
+            let beside = [u[0], u[1], u[2] - slid, u[3], u[4]];
+            self.side(beside, running, rows, slides)
+        })?;
+        let along = sliding.slope[2];
+        let yields = along[2] - spring.rate(slid);
+        for k in 0..5 {
+            fixed.load[k] += sliding.load[k];
+            for j in 0..5 {
+                let follows = if yields < 0.0 { along[j] / yields } else { 0.0 };
+                fixed.slope[k][j] += sliding.slope[k][j] - sliding.slope[k][2] * follows;
+            }
+        }
+        fixed.largest = fixed.largest.max(sliding.largest);
+        let both = fixed.found.0.iter_mut().zip(sliding.found.0);
+        for (own, other) in both.filter(|(own, _)| own.is_empty()) {
+            *own = other;
+        }
+        fixed.found.1 = slid;
+        Ok(fixed)
+    }
+
+    /// Where outer rings slide to, from a place, m: their rows press as the spring does. Steps come from the side on which the rows are loaded,
+    /// where their thrust is a convex function of the place.
+    fn slide(
+        &self,
+        spring: &PreloadSpring<f64>,
+        from: f64,
+        rows: impl Fn(f64) -> Result<Sum, NoEquilibrium>,
+    ) -> Result<(Sum, f64), NoEquilibrium> {
+        let [longest, rounding] = SLIDES;
+        let mut slid = from;
+        for _ in 0..200 {
+            let at = match rows(slid) {
+                Ok(at) => at,
+                // at a speed a ball that is hardly pressed finds no place
+                Err(NoEquilibrium::Ball) => {
+                    slid -= spring.side * longest;
+                    continue;
+                }
+                Err(why) => return Err(why),
+            };
+            let force = spring.force(slid);
+            let left = -spring.side * at.load[2] - force;
+            let step = left / (spring.rate(slid) - at.slope[2][2]).max(1e-3);
+            let near = left.abs() <= BALANCED * force.max(at.largest);
+            if near || step.abs() < rounding {
+                return Ok((at, slid));
+            }
+            slid += spring.side * step.max(-longest);
+        }
+        Err(NoEquilibrium::Ring)
+    }
+
+    /// Balls and slopes of the rows of one side, the outer rings standing; of the others none.
+    fn side(
+        &self,
+        u: [f64; 5],
+        running: &Running,
         near: Option<&[Vec<BallEquilibrium>]>,
+        counts: impl Fn(&StaticRow) -> bool,
     ) -> Result<Sum, NoEquilibrium> {
         let mut sum = Sum {
             load: [0.0; 5],
             slope: [[0.0; 5]; 5],
             largest: 0.0,
-            found: Vec::new(),
+            found: (Vec::new(), 0.0),
         };
-        for (index, row) in self.0.iter().enumerate() {
+        for (index, row) in self.rows.iter().enumerate() {
             let mut balls = Vec::new();
+            if !counts(row) {
+                sum.found.0.push(balls);
+                continue;
+            }
             for j in 0..row.balls {
                 let azimuth = row.first_azimuth + TAU * j as f64 / row.balls as f64;
                 let idle = BallEquilibrium {
@@ -250,7 +350,7 @@ impl StaticRows {
                 sum.largest = sum.largest.max(found.loads[1]);
                 balls.push(found);
             }
-            sum.found.push(balls);
+            sum.found.0.push(balls);
         }
         Ok(sum)
     }

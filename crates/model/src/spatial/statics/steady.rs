@@ -37,7 +37,7 @@ pub fn steady_row(
     from: RaceControl,
 ) -> Result<SteadyRow, NoEquilibrium> {
     let ball = &row.ball;
-    let rows = StaticRows(vec![StaticRow {
+    let rows = StaticRows::from(vec![StaticRow {
         balls: row.balls,
         first_azimuth: 0.0,
         ball: StaticBall {

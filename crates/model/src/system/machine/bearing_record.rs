@@ -255,6 +255,10 @@ impl BearingRecord {
                 step.end_probe(at.probe(AXIAL_FORCE)),
             );
             let bearing = step.machine.constants.bearings[self.bearing].spatial();
+            if let Some((bearing, spring)) = bearing.and_then(|own| Some((own, own.spring?))) {
+                let slid = step.end_state(at.own().start + bearing.sliding_state());
+                own.spring(&spring, step.end, slid);
+            }
             if let Some(surfaces) = bearing.and_then(|own| own.face_surfaces.as_ref()) {
                 let friction = at.probe(AXIAL_FRICTION);
                 let powers = [step.start_probe(friction), step.end_probe(friction)];
