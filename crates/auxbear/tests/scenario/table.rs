@@ -399,6 +399,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "bearing.fits.outer_diameter" => 0.0512345,
                 "bearing.fits.housing_outer_diameter" => 0.0812345,
                 "bearing.cage.land_diameter" => 0.0401234,
+                "contact.face_radius" => 0.0143210,
                 "bearing.moment.outer_diameter" => 0.0512345,
                 "levitation.stiffness" => 1_234_567.0,
                 "rotor.longest_element" => 0.0345678,
@@ -490,6 +491,7 @@ fn every_number_reaches_the_typed_scenario() {
             let typed = read(&base(*system, key.path), &list).system;
             let name = match key.name() {
                 _ if key.path.starts_with("levitation.axial_") => "axial",
+                name if name.starts_with("preload_spring_") => name.split_at(15).1,
                 "face_radius" => "radius",
                 "face_width" => "width",
                 "face_stiffness" => "stiffness",

@@ -24,7 +24,7 @@ use super::{PreloadSpring, preload_at_rest};
 use crate::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, Outlet, probe};
 use crate::base::Masses;
 use crate::bearing::ball_sums::largest;
-use crate::bearing::{self, BearingConstants, RaceContact, seat};
+use crate::bearing::{self, BearingConstants, RaceContact};
 use crate::contact::ContactReaction;
 use crate::heats::HEATS;
 use crate::motion::{Motion, Wrench};
@@ -74,7 +74,9 @@ impl SpatialBearing {
     pub(crate) fn counts(&self) -> Vec<usize> {
         let landing = [self.landing.stations.len(), self.landing.faces.len()];
         let nodes = self.rows.iter().map(|row| row.nodes.len());
-        nodes.chain(landing).collect()
+        // which side a spring presses
+        let spring = self.spring.map_or(0, |own| 1 + usize::from(own.side > 0.0));
+        nodes.chain(landing).chain([spring]).collect()
     }
     /// Displacement of the inner ring under a radial load, N, at rest, m, one ball of each row on the load line; none where no preload
     /// presses its rows, or no equilibrium is found.

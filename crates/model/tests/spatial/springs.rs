@@ -112,7 +112,7 @@ fn a_spring_is_a_distance_where_it_is_stiff_and_a_force_where_it_is_soft() {
 
 #[test]
 fn a_pair_on_a_spring_yields_as_its_rows_and_the_spring_say() {
-    let (rows, spring) = on_spring(1e6);
+    let (rows, spring) = on_spring(1e7);
     let pair = StaticRows {
         rows: rows.clone(),
         spring: Some(spring),
@@ -151,7 +151,7 @@ fn a_pair_on_a_spring_yields_as_its_rows_and_the_spring_say() {
     let mut beside = pressed.displacement;
     beside.shift[2] -= pressed.slid;
     let row = StaticRows::from(vec![rows[1]]).at(beside, &REST).unwrap();
-    let series = 1.0 / (1.0 / 1e6 + 1.0 / row.stiffness[2][2]);
+    let series = 1.0 / (1.0 / 1e7 + 1.0 / row.stiffness[2][2]);
     assert!((pressed.stiffness[2][2] / series - 1.0).abs() < 1e-9);
     // where it is solid the stop is beside it
     let mut solid = pair.clone();
@@ -159,7 +159,7 @@ fn a_pair_on_a_spring_yields_as_its_rows_and_the_spring_say() {
     let stopped = solid.settle(&axial(-3.0 * preload), &REST).unwrap();
     let beyond = -stopped.slid - 20e-6;
     assert!(beyond > 0.0 && beyond < 5e-6, "{beyond}");
-    let force = preload - 1e6 * stopped.slid + 2e8 * beyond;
+    let force = preload - 1e7 * stopped.slid + 2e8 * beyond;
     assert!((force / (3.0 * preload) - 1.0).abs() < 1e-9);
     // thrust on the row that stands frees the spring of a stiff one
     let mut free = pair;
