@@ -399,5 +399,5 @@ pub enum Bearings {
         json: bool,
     },
     /// Compute equilibrium and stiffness of a bearing, or of a pair, under loads and speed
-    Stiffness(Stiffness),
+    Stiffness(Box<Stiffness>),
 }

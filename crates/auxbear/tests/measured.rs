@@ -465,6 +465,10 @@ fn wrong_tables_are_refused_with_what_is_there() {
             "[AB0109]: |measured.column: found \"rotor.y\" twice",
         ),
         (
+            good() + &with("drop = 2"),
+            "[AB0109]: |measured.drop: found the record of drop 1 once more",
+        ),
+        (
             good().replace("a.csv", "b.csv"),
             "[AB0303]: |measured.file: found |b.csv: cannot be opened",
         ),

@@ -67,7 +67,8 @@ pub fn whirl_sought(judged: Judged, angles: usize, slips: bool) -> Judged {
             "{angles} of at least {ANGLES_FOR_WHIRL} unbalance angles tried (--repeat {ANGLES_FOR_WHIRL})"
         ),
         (false, true) => {
-            "it ends while the rotor slips on a race or bushing that is below 95 % of its speed".to_string()
+            "it ends while the rotor slips on a race or bushing that is below 95 % of its speed"
+                .to_string()
         }
         (false, false) => return judged,
     };

@@ -196,6 +196,21 @@ pub(crate) fn of(document: &Document) -> Result<Vec<Measured>> {
             .map(|key| (key, table.place_of(key)))
             .collect(),
         };
+        let record = |own: &Measured| {
+            (
+                own.file.clone(),
+                own.channel.clone(),
+                own.clock_offset.to_bits(),
+            )
+        };
+        let is_same =
+            |own: &&Measured| own.drop != measured.drop && record(own) == record(&measured);
+        if let Some(other) = all.iter().find(is_same) {
+            let found = format!("the record of drop {} once more", other.drop);
+            let allowed =
+                "another channel, file or clock_offset is needed: each drop is measured by itself";
+            return table.refuse(Code::Conflict, "drop", found, allowed);
+        }
         if measured.scale == 0.0 {
             return table.refuse(
                 Code::OutOfRange,

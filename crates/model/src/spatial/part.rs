@@ -10,7 +10,7 @@
 //!
 //! Does not model: a steady friction moment, mounts on housings that move.
 
-use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing, SLIDING};
+use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
 use super::ball::BALL_STATES;
 use super::face_heat::FaceSurfaces;
 use super::landing::{Landing, LandingConstants, LandingReaction};

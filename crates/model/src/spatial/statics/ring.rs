@@ -250,8 +250,8 @@ impl StaticRows {
         let yields = along[2] - spring.rate(slid);
         for k in 0..5 {
             fixed.load[k] += sliding.load[k];
-            for j in 0..5 {
-                let follows = if yields < 0.0 { along[j] / yields } else { 0.0 };
+            for (j, along) in along.iter().enumerate() {
+                let follows = if yields < 0.0 { along / yields } else { 0.0 };
                 fixed.slope[k][j] += sliding.slope[k][j] - sliding.slope[k][2] * follows;
             }
         }

@@ -6,7 +6,7 @@ use crate::page::escape_text as plain;
 use crate::picture::orbit_svg;
 use crate::study::cells::{cell, percent, short, table};
 use crate::study::ranking::of_each;
-use outcome::Severity;
+use outcome::{Judged, Severity};
 use run::study::Study;
 use run::study::failure_modes::{FAILURE_MODES, FailureMode};
 use run::study::in_a_row::InARow;
@@ -20,6 +20,36 @@ use statistics::share::wilson;
 const MOST_ASSUMED: usize = 40;
 
 impl Document<'_> {
+    /// That the runs were computed at screening accuracy.
+    pub(super) fn at_screening(&self) -> Option<String> {
+        let accuracy = self.study.file.scenario.resolved.get("run.accuracy")?;
+        (accuracy.text.as_deref() == Some("screening")).then(|| {
+            let confirmed = match self.study.file.confirm > 0 {
+                true => ": those near a limit were confirmed at design accuracy",
+                false => ": a margin of a few per cent is none, as no run was confirmed at design accuracy",
+            };
+            format!("Runs at screening accuracy{confirmed}")
+        })
+    }
+
+    /// How many runs hold a requirement that a share of them must hold, and the worst value of all.
+    pub(super) fn of_share(&self, judged: &Judged) -> String {
+        let side = |value: f64| match judged.limit.side {
+            Side::Most => value,
+            Side::Least => -value,
+        };
+        let values = self.study.limited(self.table, &judged.limit).into_iter();
+        let worst = values
+            .flatten()
+            .max_by(|a, b| side(*a).total_cmp(&side(*b)));
+        format!(
+            ": {} of {} runs hold it, the worst of all runs is {}",
+            judged.hold,
+            judged.members,
+            cell(worst, self.unit_of(&judged.limit))
+        )
+    }
+
     /// How each failure mode is excluded: the worst of its results, the requirements that bound it in every case, and runs that warn of it.
     pub(super) fn failure_modes(&self) -> String {
         let requirements = self.requirements();

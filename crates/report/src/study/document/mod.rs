@@ -362,36 +362,6 @@ impl Document<'_> {
         }
     }
 
-    /// That the runs were computed at screening accuracy.
-    fn at_screening(&self) -> Option<String> {
-        let accuracy = self.study.file.scenario.resolved.get("run.accuracy")?;
-        (accuracy.text.as_deref() == Some("screening")).then(|| {
-            let confirmed = match self.study.file.confirm > 0 {
-                true => ": those near a limit were confirmed at design accuracy",
-                false => ": a margin of a few per cent is none, as no run was confirmed at design accuracy",
-            };
-            format!("Runs at screening accuracy{confirmed}")
-        })
-    }
-
-    /// How many runs hold a requirement that a share of them must hold, and the worst value of all.
-    fn of_share(&self, judged: &Judged) -> String {
-        let side = |value: f64| match judged.limit.side {
-            Side::Most => value,
-            Side::Least => -value,
-        };
-        let values = self.study.limited(&self.table, &judged.limit).into_iter();
-        let worst = values
-            .flatten()
-            .max_by(|a, b| side(*a).total_cmp(&side(*b)));
-        format!(
-            ": {} of {} runs hold it, the worst of all runs is {}",
-            judged.hold,
-            judged.members,
-            cell(worst, self.unit_of(&judged.limit))
-        )
-    }
-
     fn first_table(&self, requirements: &[Requirement]) -> String {
         let row = |(k, one): (usize, &Requirement)| {
             let judged = one.worst.map(|(_, judged, _)| judged);
