@@ -248,10 +248,10 @@ impl StaticRows {
         })?;
         let along = sliding.slope[2];
         let yields = along[2] - spring.rate(slid);
+        let follows = along.map(|own| if yields < 0.0 { own / yields } else { 0.0 });
         for k in 0..5 {
             fixed.load[k] += sliding.load[k];
-            for (j, along) in along.iter().enumerate() {
-                let follows = if yields < 0.0 { along / yields } else { 0.0 };
+            for (j, follows) in follows.iter().enumerate() {
                 fixed.slope[k][j] += sliding.slope[k][j] - sliding.slope[k][2] * follows;
             }
         }
