@@ -36,15 +36,15 @@ const FAST: [Guard; 9] = [
     ("format", toolchain::format),
 ];
 
-const SLOW: [Guard; 4] = [
-    ("packages", toolchain::packages),
+const SLOW: [Guard; 2] = [
     ("lints", toolchain::lints),
     ("documentation pages", toolchain::pages),
-    ("scenarios", scenarios::check),
 ];
 
-/// Of these each uses one core for the most part.
-static SIDE_BY_SIDE: [Guard; 2] = [
+/// Each of these leaves a core idle for a part of its time.
+static SIDE_BY_SIDE: [Guard; 4] = [
+    ("scenarios", scenarios::check),
+    ("packages", toolchain::packages),
     ("Python", python::check),
     ("documentation examples", toolchain::examples),
 ];
@@ -58,7 +58,7 @@ pub fn run(extent: Extent) -> Result<(), String> {
     }
     let begun = commit(&repository.root);
     failed.extend(failures(&SLOW, &repository));
-    let both = thread::scope(|scope| {
+    let beside = thread::scope(|scope| {
         let side = |guard: &'static Guard| {
             let repository = &repository;
             scope.spawn(move || failures(std::slice::from_ref(guard), repository))
@@ -66,7 +66,7 @@ pub fn run(extent: Extent) -> Result<(), String> {
         let begun = SIDE_BY_SIDE.each_ref().map(side);
         begun.map(|own| own.join().unwrap_or_else(|_| vec!["a guard panicked"]))
     });
-    failed.extend(both.concat());
+    failed.extend(beside.concat());
     if !failed.is_empty() {
         println!("with findings: {}", failed.join(", "));
     }
