@@ -329,17 +329,16 @@ impl Instance {
     pub fn begin(&mut self) -> Result<(), Fault> {
         self.in_turn(&[Phase::Initializing])?;
         self.build()?;
-        let folder = &self.past.settings.run_directory;
-        self.directory = match folder.is_empty() {
-            true => None,
-            // one that cannot be written is no end of a run
-            false => {
-                let place = NewDirectory::reserve(Path::new(folder));
-                Some(place.map_err(|problem| problem.to_string())?)
-            }
-        };
+        // one that cannot be written is no end of a run
+        self.directory = self.reserved()?;
         self.past.phase = Phase::Stepping;
         Ok(())
+    }
+    /// The place of its run directory, where one is named.
+    fn reserved(&self) -> Result<Option<NewDirectory>, Fault> {
+        let folder = &self.past.settings.run_directory;
+        let named = (!folder.is_empty()).then(|| NewDirectory::reserve(Path::new(folder)));
+        named.transpose().map_err(|problem| problem.to_string())
     }
     fn in_turn(&self, turns: &[Phase]) -> Result<(), Fault> {
         match turns.contains(&self.past.phase) {
@@ -395,7 +394,11 @@ impl Instance {
     /// Ends the run; its directory is written where one was named.
     pub fn terminate(&mut self) -> Result<(), Fault> {
         let was = std::mem::replace(&mut self.past.phase, Phase::Terminated);
-        let directory = self.directory.take();
+        let directory = match self.directory.take() {
+            // a state of another instance was restored
+            None if was == Phase::Stepping => self.reserved()?,
+            own => own,
+        };
         let (Phase::Stepping, Some(directory), Some((driven, _))) =
             (was, directory, &mut self.driven)
         else {

@@ -348,7 +348,16 @@ fn parameters_are_values_of_the_scenario_and_the_run_directory_has_them() {
     own.begin();
     assert_eq!(own.get("rotor.speed"), 1000.0);
     assert_eq!(own.step(0.0, 8e-3), 0);
+    let mut state = null_mut();
+    assert_eq!(unsafe { fmi2GetFMUstate(own.c, &raw mut state) }, 0);
     assert_eq!(unsafe { fmi2Terminate(own.c) }, 0, "{}", said());
+    // one that was terminated goes on from a state, and keeps what is there
+    assert_eq!(unsafe { fmi2SetFMUstate(own.c, state) }, 0);
+    assert_eq!(unsafe { fmi2Terminate(own.c) }, 3);
+    fs::rename(&place, place.with_file_name("first")).unwrap();
+    assert_eq!(unsafe { fmi2SetFMUstate(own.c, state) }, 0);
+    assert_eq!(unsafe { fmi2Terminate(own.c) }, 0, "{}", said());
+    assert_eq!(unsafe { fmi2FreeFMUstate(own.c, &raw mut state) }, 0);
     let written = fs::read_to_string(place.join("scenario.toml")).unwrap();
     assert!(
         written.contains("friction_coefficient = \"0.3\"")
