@@ -192,9 +192,9 @@ impl<const N: usize> Later<N> {
         {
             let spread = self.known * column;
             let gain = spread / (1.0 + column.dot(&spread));
-            let kept = Matrix::identity() - gain * column.transpose();
-            // As a sum of squares: what is left may be much less than what was known.
-            let left = kept * self.known * kept.transpose();
+            // (1 - g cᵀ) Y (1 - c gᵀ) as a sum of squares, one factor after the other: what is left may be much less than what was known.
+            let half = self.known - gain * spread.transpose();
+            let left = half - half * column * gain.transpose();
             self.known = symmetric(left + gain * gain.transpose());
         }
         self.gradient = transition.tr_mul(&self.gradient);

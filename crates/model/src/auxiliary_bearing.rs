@@ -407,23 +407,10 @@ impl<R: Real> AuxiliaryBearing<R> {
         (by.dot(own.momentum + housing + races), own.moment.cross(by))
     }
 
-    /// What the mount does at a motion of the outer race; writes the rates of its own states.
+    /// What the mount does at a motion of the outer race, beside position and velocity of what it stands on; writes the rates of
+    /// its own states.
     #[inline(always)]
     pub fn mount(
-        &self,
-        at: &BearingAt,
-        motion: &Motion<R>,
-        state: &[R],
-        rate: &mut [R],
-    ) -> MountReaction<R> {
-        let outer = &motion.outer;
-        let (state, rate) = (&state[at.of_mount()], &mut rate[at.of_mount()]);
-        (self.mount).react((outer.position, outer.velocity), state, rate)
-    }
-
-    /// The same on a housing that moves, at its position and velocity; apart, for few machines have one.
-    #[inline(never)]
-    pub fn mount_on(
         &self,
         at: &BearingAt,
         motion: &Motion<R>,

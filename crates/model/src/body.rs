@@ -12,7 +12,7 @@ use crate::motion::Body;
 use crate::spatial::part::SPIN;
 use crate::spatial::part_states::{BODY_NAMES, orientation_scale};
 use crate::spatial::rigid_body::{BODY_STATES, RigidBody};
-use number::{Real, Vec2};
+use number::{Real, Vec2, Vectorized};
 use std::ops::Range;
 
 /// Where a body stands in the state.
@@ -136,7 +136,7 @@ impl BodyAt {
     #[inline(always)]
     pub fn motion<R: Real>(self, state: &[R]) -> Body<R> {
         if self.in_space {
-            return self.motion_in_space(state);
+            return R::vectorized(InSpace { at: self, state });
         }
         let mut body = Body::planar(Vec2::zero(), Vec2::zero(), R::zero(), R::zero());
         if self.moves {
@@ -147,10 +147,6 @@ impl BodyAt {
             (body.angle, body.spin) = (state[self.angle()], state[self.spin()]);
         }
         body
-    }
-    #[inline(never)]
-    fn motion_in_space<R: Real>(self, state: &[R]) -> Body<R> {
-        RigidBody::read(&state[self.first..]).seen(state[self.angle()])
     }
     /// Writes the rates of its centre, where that moves.
     #[inline(always)]
@@ -181,6 +177,21 @@ impl BodyAt {
             // tilt and its rate by what they do at a lever of 1 cm
             orientation_scale(body, 100.0 * length, 100.0 * speed);
         }
+    }
+}
+
+/// The motion of a body in space, apart: few machines have one.
+struct InSpace<'a, R> {
+    at: BodyAt,
+    state: &'a [R],
+}
+
+impl<R: Real> Vectorized for InSpace<'_, R> {
+    type Output = Body<R>;
+    #[inline(always)]
+    fn run(self) -> Body<R> {
+        let InSpace { at, state } = self;
+        RigidBody::read(&state[at.first..]).seen(state[at.angle()])
     }
 }
 

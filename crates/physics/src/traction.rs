@@ -8,7 +8,7 @@
 
 use crate::lubricant_traction::LubricantTraction;
 pub use crate::sliding_contact::SlidingContact;
-use number::{Real, constants};
+use number::{Real, Vectorized, constants};
 
 /// A traction law of a ball between two races.
 pub trait TractionLaw<R: Real> {
@@ -169,12 +169,33 @@ constants! {
     }
 }
 impl<R: Real> TractionLaw<R> for LubricatedRaces<R> {
+    /// Apart: the law is long, and asked for in many places.
     #[inline(always)]
     fn at_races(&self, inner: &SlidingContact<R>, outer: &SlidingContact<R>) -> (R, R) {
-        let of = |law: &LubricantTraction<R>, at: &SlidingContact<R>| {
-            law.coefficient(at.slip, at.load, at.entrainment)
-        };
-        (of(&self.inner, inner), of(&self.outer, outer))
+        R::vectorized(Lubricated {
+            laws: self,
+            inner,
+            outer,
+        })
+    }
+}
+
+/// A lubricated ball between its races.
+struct Lubricated<'a, R> {
+    laws: &'a LubricatedRaces<R>,
+    inner: &'a SlidingContact<R>,
+    outer: &'a SlidingContact<R>,
+}
+
+impl<R: Real> Vectorized for Lubricated<'_, R> {
+    type Output = (R, R);
+    #[inline(always)]
+    fn run(self) -> (R, R) {
+        let Lubricated { laws, inner, outer } = self;
+        (
+            (laws.inner).coefficient(inner.slip, inner.load, inner.entrainment),
+            (laws.outer).coefficient(outer.slip, outer.load, outer.entrainment),
+        )
     }
 }
 

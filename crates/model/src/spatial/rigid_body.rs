@@ -143,6 +143,7 @@ impl<R: Real> RigidBody<R> {
         }
     }
     /// What a part sees of its motion.
+    #[inline(always)]
     pub fn seen(&self, angle: R) -> Body<R> {
         let across = |v: Vec3<R>| Vec2::new(v.x, v.y);
         Body {

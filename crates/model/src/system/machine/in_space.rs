@@ -157,7 +157,7 @@ impl<R: Real> Vectorized for Act<'_, R> {
             let Some(own) = &part.spatial else { continue };
             let centre = node.motion(rotor, [place, speed]);
             let motion = at.motion(state);
-            let mount = part.mount(at, &motion, state, rate);
+            let mount = part.mount(at, &motion, [Vec2::zero(); 2], state, rate);
             let into = Outlet {
                 heat: layout.heat(at.heat),
                 source: layout.source(at.source),

@@ -153,7 +153,7 @@ impl RotorMachine {
         let motion = at.motion(state);
         let mut rate = vec![0.0; self.dimension()];
         let ground = self.ground(bearing, state);
-        self.one.bearings[bearing].mount_on(at, &motion, ground, state, &mut rate)
+        self.one.bearings[bearing].mount(at, &motion, ground, state, &mut rate)
     }
     /// The rate of change of a state at the start, for inspection: (rate, probes).
     pub fn inspect(&self, state: &[f64]) -> (Vec<f64>, Vec<f64>) {

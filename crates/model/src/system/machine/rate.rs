@@ -8,7 +8,7 @@ use crate::magnets::Pull;
 use crate::mount::MountReaction;
 use crate::rotor::RotorMotion;
 use crate::system::rig::fixture::Acting;
-use number::{Mask, Real, Vec2};
+use number::{Mask, Real, Vec2, Vectorized};
 
 /// So many nodes are kept from the forces on the rotor for the bearings; more than the usual two bearings compute theirs twice.
 const KEPT: usize = 2;
@@ -20,6 +20,41 @@ pub(super) fn blocks<R>(rate: &mut [R], coordinates: usize) -> [&mut [R]; 4] {
     let (y, rest) = rest.split_at_mut(coordinates);
     let (vx, rest) = rest.split_at_mut(coordinates);
     [x, y, vx, &mut rest[..coordinates]]
+}
+
+/// What mounts do to the housings that they stand on: the moment of these forces about the origin, N m. Apart, for few machines
+/// have housings.
+struct PushHousings<'a, R: Real> {
+    machines: &'a Machines<R>,
+    rotor: &'a RotorMotion<'a, R>,
+    state: &'a [R],
+    rate: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for PushHousings<'_, R> {
+    type Output = R;
+    #[inline(always)]
+    fn run(self) -> R {
+        let PushHousings {
+            machines,
+            rotor,
+            state,
+            rate,
+        } = self;
+        let mut moment = R::zero();
+        for (k, stand) in machines.stands.iter().enumerate() {
+            let (Some(stand), part) = (stand, &machines.bearings[k]) else {
+                continue;
+            };
+            let (at, ground) = (&machines.layout.bearings[k], machines.ground(k, rotor));
+            let mount = part.mount(at, &at.motion(state), ground, state, rate);
+            let force = (part.mount.weight() - mount.force) * part.planes;
+            let [_, _, force_x, force_y] = blocks(rate, machines.layout.rotor.coordinates);
+            stand.push(force, [force_x, force_y]);
+            moment += ground[0].cross(force);
+        }
+        moment
+    }
 }
 
 impl<R: Real> Machines<R> {
@@ -55,24 +90,6 @@ impl<R: Real> Machines<R> {
                 [centre.position, centre.velocity]
             }
         }
-    }
-
-    /// What mounts do to the housings that they stand on; returns the moment of these forces about the origin, N m.
-    #[inline(never)]
-    fn push_housings(&self, rotor: &RotorMotion<R>, state: &[R], rate: &mut [R]) -> R {
-        let mut moment = R::zero();
-        for (k, stand) in self.stands.iter().enumerate() {
-            let (Some(stand), part) = (stand, &self.bearings[k]) else {
-                continue;
-            };
-            let (at, ground) = (&self.layout.bearings[k], self.ground(k, rotor));
-            let mount = part.mount_on(at, &at.motion(state), ground, state, rate);
-            let force = (part.mount.weight() - mount.force) * part.planes;
-            let [_, _, force_x, force_y] = blocks(rate, self.layout.rotor.coordinates);
-            stand.push(force, [force_x, force_y]);
-            moment += ground[0].cross(force);
-        }
-        moment
     }
 
     /// The rate of change of the state, and the probes where asked.
@@ -165,7 +182,10 @@ impl<R: Real> Machines<R> {
             pushing += own.dot(centre.velocity);
             pulled += centre.position.cross(own);
         }
-        let shaken = (self.base.as_ref()).map(|base| base.added(&mode.base, time));
+        let mut shaken = None;
+        if let Some(base) = &self.base {
+            shaken = Some(base.added(&mode.base, time));
+        }
         let mut in_space = SpatialActs::none();
         if let Some(space) = &self.space {
             in_space = self.act_in_space(
@@ -179,7 +199,12 @@ impl<R: Real> Machines<R> {
             pushing += in_space.thrust;
         }
         if self.housed {
-            pulled += self.push_housings(&rotor, state, rate);
+            pulled += R::vectorized(PushHousings {
+                machines: self,
+                rotor: &rotor,
+                state,
+                rate,
+            });
         }
         let braking = mode.brake.greater(zero);
         let brake = if braking.any() {
@@ -233,8 +258,10 @@ impl<R: Real> Machines<R> {
             rate[layout.source(source)] = pushing;
         }
 
-        let mut shaking = shaken.map_or(zero, |by| by.dot(self.rotor.momentum(&rotor)));
-        shaking += in_space.base;
+        let mut shaking = in_space.base;
+        if let Some(by) = shaken {
+            shaking += by.dot(self.rotor.momentum(&rotor));
+        }
 
         // auxiliary bearings: what they say of angular momentum is about their datum
         let mut impulse = self.rotor.weight_moment(&rotor, gravity);
@@ -246,10 +273,7 @@ impl<R: Real> Machines<R> {
             let held_load = acting.map_or(zero, |acting| acting.held_load);
             let reaction = part.bearing(at, (&motion, held_load), state, rate, probe);
             let mount = match acting {
-                None => match &self.stands[k] {
-                    None => part.mount(at, &motion, state, rate),
-                    Some(_) => part.mount_on(at, &motion, self.ground(k, &rotor), state, rate),
-                },
+                None => part.mount(at, &motion, self.ground(k, &rotor), state, rate),
                 Some(acting) => MountReaction::of(acting.on_outer),
             };
             let there = match kept.get(k) {
