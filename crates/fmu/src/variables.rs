@@ -53,9 +53,10 @@ pub struct Variable {
     pub meaning: String,
 }
 
-/// Whether a value of the scenario is a parameter: a number that is given, and whose change leaves all names as they are.
+/// Whether a value of the scenario is a parameter: a number that does not follow from others, and whose change leaves all names as they are.
 fn parameters(scenario: &Scenario) -> impl Iterator<Item = Variable> {
     let values = scenario.resolved.values.iter();
+    let values = values.filter(|own| own.provenance.mark() != "derived");
     let numbers = values.filter(|own| own.text.is_some() && !own.is_of_kind());
     numbers.filter_map(|own| {
         Some(Variable {

@@ -50,7 +50,7 @@ impl Value {
 }
 
 /// A value with everything known of it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Known {
     /// The value.
     pub value: Value,

@@ -6,6 +6,7 @@ use outcome::table::Table;
 use outcome::{
     Amount, Contact, Judged, Outcome, Picture, Quantity, Spread, Stop, Value, Warning, Work,
 };
+use problem::value::Known;
 use scenario::{Provenance, ResolvedValue, Scenario};
 use serde::{Serialize, Serializer};
 use std::io::{BufWriter, Write};
@@ -57,7 +58,9 @@ fn told<'a>(
         limits: outcome.limits.iter().map(limit).collect(),
         warnings: outcome.warnings.iter().map(warning).collect(),
         contacts: &outcome.contacts,
-        inputs: scenario.resolved.values.iter().map(input).collect(),
+        inputs: (scenario.resolved.values.iter().map(input))
+            .chain(scenario.resolved.of_all_parts().map(of_part))
+            .collect(),
         members: First(&outcome.members, members.min(most)),
         members_total: (members > most).then_some(members),
         drawn: (outcome.drawn.iter().take(most))
@@ -309,6 +312,16 @@ fn input(value: &ResolvedValue) -> Input<'_> {
         value: text,
         mark: value.provenance.mark(),
         note: value.provenance.note(),
+    }
+}
+
+/// A value of a part of a flexible rotor, magnets and events among them.
+fn of_part<'a>((path, known): (&str, &'a Known)) -> Input<'a> {
+    Input {
+        path: path.to_string(),
+        value: &known.text,
+        mark: known.provenance.mark(),
+        note: known.provenance.note(),
     }
 }
 

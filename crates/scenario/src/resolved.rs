@@ -6,6 +6,7 @@ use crate::table;
 use crate::vary::Vary;
 use problem::Place;
 use problem::provenance::Provenance;
+use problem::value::Known;
 
 /// One value of a resolved scenario.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,8 +48,8 @@ pub struct Resolved {
     vary: Vec<String>,
     /// What results must hold, and measured channels, a table each.
     tables: Vec<String>,
-    /// Parts of a flexible rotor, a table each, with the paths of what is assumed of it.
-    parts: Vec<(String, Vec<String>)>,
+    /// Parts of a flexible rotor, a table each, with its values by their paths.
+    parts: Vec<(String, Vec<(String, Known)>)>,
 }
 
 impl Resolved {
@@ -60,34 +61,20 @@ impl Resolved {
             parts: Vec::new(),
         }
     }
-    /// The same with the parts of a flexible rotor, each as a file has it, and what is assumed of it.
-    pub fn of_parts(mut self, parts: Vec<(String, Vec<String>)>) -> Resolved {
+    /// The same with the parts of a flexible rotor, each as a file has it, and its values.
+    pub fn of_parts(mut self, parts: Vec<(String, Vec<(String, Known)>)>) -> Resolved {
         self.parts = parts;
         self
     }
-    /// Paths of what is assumed of the parts of a flexible rotor.
-    pub fn assumed_of_parts(&self) -> impl Iterator<Item = &str> {
-        let assumed = self.parts.iter().flat_map(|(_, assumed)| assumed);
-        assumed.map(String::as_str)
+    /// The values of all parts of a flexible rotor by their paths, such as `rotor.unbalance.wheel.amount`.
+    pub fn of_all_parts(&self) -> impl Iterator<Item = (&str, &Known)> {
+        let values = self.parts.iter().flat_map(|(_, values)| values);
+        values.map(|(path, known)| (path.as_str(), known))
     }
-    /// What is assumed of the parts of a flexible rotor: path, value and reason.
-    pub fn assumed_values_of_parts(&self) -> impl Iterator<Item = (&str, &str, &str)> {
-        let parts = self.parts.iter();
-        parts.flat_map(|(text, paths)| {
-            paths.iter().map(move |path| {
-                let key = path.rsplit('.').next().unwrap_or(path);
-                let mut lines = text.lines();
-                let line =
-                    lines.find_map(|line| line.strip_prefix(key)?.strip_prefix(" = { value = "));
-                let told = line.and_then(|line| line.split_once(", assumed = "));
-                let (value, why) = told.unwrap_or_default();
-                (
-                    path.as_str(),
-                    value.trim_matches('"'),
-                    why.trim_end_matches(" }").trim_matches('"'),
-                )
-            })
-        })
+    /// Those of them that are assumed.
+    pub fn assumed_of_parts(&self) -> impl Iterator<Item = (&str, &Known)> {
+        let values = self.of_all_parts();
+        values.filter(|(_, known)| known.provenance.mark() == "assumed")
     }
     /// The same with tables of a list, each as a file has it: what results must hold, measured channels.
     pub fn listed(mut self, tables: impl Iterator<Item = String>) -> Resolved {

@@ -23,13 +23,23 @@ const MOST_INPUTS: usize = 12;
 pub struct Runs {
     read: Mutex<BTreeMap<String, (u128, Value)>>,
     /// Values that files give now, by name and system of a run, and last change.
-    files: Mutex<BTreeMap<String, (u128, Option<InputTexts>)>>,
+    files: Mutex<BTreeMap<String, (u128, Option<Now>)>>,
     /// What studies ask now with their limits named, by name and what their files say.
     studies: Mutex<BTreeMap<String, (String, Option<String>)>>,
 }
 
 /// Paths with their values as written.
 type InputTexts = BTreeMap<String, String>;
+
+/// What a file gives now: its inputs, and its resolved text.
+#[derive(Clone)]
+struct Now {
+    inputs: InputTexts,
+    text: String,
+}
+
+/// What lists begin with that stand behind the inputs of a resolved file.
+const LISTS: [&str; 3] = ["[vary]", "[[limit]]", "[[measured]]"];
 
 impl Runs {
     /// Every run and study of the folder, the last first, with the inputs in which they differ.
@@ -64,13 +74,15 @@ impl Runs {
                 row["file"] = json!(file);
                 row["differs"] = match row["study"] == true {
                     true => json!(self.differences_of_study(folder, file, &path)),
-                    false => json!(self.differences(folder, file, &row)),
+                    false => json!(self.differences(folder, file, &row, &path)),
                 };
             }
             rows.push(row);
         }
         rows.sort_by_key(|row| std::cmp::Reverse(row["date"].as_u64()));
-        let differing = differing(&rows);
+        let mut differing = differing(&rows);
+        let more = differing.len().saturating_sub(MOST_INPUTS);
+        differing.truncate(MOST_INPUTS);
         for row in &mut rows {
             // the table shows those alone
             let inputs = row["inputs"].take();
@@ -81,11 +93,18 @@ impl Runs {
             });
             row["inputs"] = json!(own);
         }
-        json!({ "rows": rows, "inputs": differing })
+        json!({ "rows": rows, "inputs": differing, "more": more })
     }
 
-    /// In which inputs a file differs now from what a run was computed with: path, then, now. None where it cannot be read now.
-    fn differences(&self, folder: &Folder, file: &str, row: &Value) -> Option<Vec<[String; 3]>> {
+    /// In which inputs a file differs now from what a run was computed with: path, then, now; where in none, the first line of its limits
+    /// and measured channels that does. None where it cannot be read now.
+    fn differences(
+        &self,
+        folder: &Folder,
+        file: &str,
+        row: &Value,
+        directory: &Path,
+    ) -> Option<Vec<[String; 3]>> {
         let path = folder.root().join(file);
         let at = stamp(&path);
         let system = row["system"].as_str().unwrap_or_default();
@@ -101,17 +120,36 @@ impl Runs {
             }
         }?;
         let then = row["inputs"].as_object()?;
-        let text = |value: Option<&Value>| {
-            value
-                .and_then(Value::as_str)
-                .unwrap_or("not given")
-                .to_string()
-        };
-        let changed = now.iter().filter_map(|(path, value)| {
-            let before = text(then.get(path));
-            (before != *value).then(|| [path.clone(), before, value.clone()])
+        let missing = || "not given".to_string();
+        let before = |path: &String| then.get(path).and_then(Value::as_str);
+        let paths: BTreeSet<&String> = now.inputs.keys().chain(then.keys()).collect();
+        let changed = paths.into_iter().filter_map(|path| {
+            let (before, now) = (before(path), now.inputs.get(path));
+            (before != now.map(String::as_str)).then(|| {
+                let [before, now] = [before.map(str::to_string), now.cloned()];
+                [
+                    path.clone(),
+                    before.unwrap_or_else(missing),
+                    now.unwrap_or_else(missing),
+                ]
+            })
         });
-        Some(changed.collect())
+        let mut changed: Vec<[String; 3]> = changed.collect();
+        let lines = |text: &str| -> Vec<String> {
+            let lines = text.lines().filter(|line| !line.is_empty());
+            let lists = lines.skip_while(|line| !LISTS.contains(line));
+            lists.map(str::to_string).collect()
+        };
+        if changed.is_empty()
+            && let Ok(text) = fs::read_to_string(directory.join("scenario.toml"))
+        {
+            changed.extend(first_apart(
+                "limits or measured channels",
+                &lines(&text),
+                &lines(&now.text),
+            ));
+        }
+        Some(changed)
     }
 
     /// Which of its two files have changed since a study was computed; none where they cannot be read now.
@@ -149,22 +187,22 @@ impl Runs {
         ];
         let changed = files.into_iter().filter_map(|(name, now)| {
             let then = compared(&fs::read_to_string(directory.join(name)).ok()?);
-            let now = compared(&now);
-            let at = then.iter().zip(&now).position(|(then, now)| then != now);
-            let at = at.or((then.len() != now.len()).then_some(then.len().min(now.len())))?;
-            let line = |lines: &[String]| lines.get(at).cloned().unwrap_or_default();
-            Some([
-                name.trim_end_matches(".toml").to_string(),
-                line(&then),
-                line(&now),
-            ])
+            first_apart(name.trim_end_matches(".toml"), &then, &compared(&now))
         });
         Some(changed.collect())
     }
 }
 
+/// The first line in which two texts differ, under a name.
+fn first_apart(name: &str, then: &[String], now: &[String]) -> Option<[String; 3]> {
+    let at = then.iter().zip(now).position(|(then, now)| then != now);
+    let at = at.or((then.len() != now.len()).then_some(then.len().min(now.len())))?;
+    let line = |lines: &[String]| lines.get(at).cloned().unwrap_or_default();
+    Some([name.to_string(), line(then), line(now)])
+}
+
 /// What the file of a scenario gives now, as the summary of a run of a system says it: the analysis of a machine's rotor is one of its own.
-fn given(path: &Path, system: &str) -> Option<InputTexts> {
+fn given(path: &Path, system: &str) -> Option<Now> {
     let mut scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
     if system == SystemName::Rotor.word()
         && let Some(alone) = scenario.rotor_alone()
@@ -178,12 +216,16 @@ fn given(path: &Path, system: &str) -> Option<InputTexts> {
     };
     let run = page_run("", &scenario, &nothing).ok()?;
     let summary: Value = serde_json::from_str(&run.summary_json).ok()?;
-    Some(inputs_of(&summary))
+    Some(Now {
+        inputs: inputs_of(&summary),
+        text: scenario.resolved.toml(),
+    })
 }
 
-/// Inputs that a summary names, but for those that change no result.
+/// Inputs that a summary names, but for those that change no result or follow from others.
 fn inputs_of(summary: &Value) -> InputTexts {
     let inputs = summary["inputs"].as_array().into_iter().flatten();
+    let inputs = inputs.filter(|input| input["mark"] != "derived");
     let pair = |input: &Value| {
         Some((
             input["path"].as_str()?.to_string(),
@@ -278,8 +320,8 @@ struct Ordered {
     quantities: IndexMap<String, Value>,
 }
 
-/// Inputs in which runs of one system differ, the first so many.
-fn differing(rows: &[Value]) -> BTreeSet<String> {
+/// Inputs in which runs of one system differ.
+fn differing(rows: &[Value]) -> Vec<String> {
     let mut values: BTreeMap<(&str, &str), (usize, BTreeSet<&str>)> = BTreeMap::new();
     let mut counts: BTreeMap<&str, usize> = BTreeMap::new();
     for row in rows {
@@ -294,10 +336,11 @@ fn differing(rows: &[Value]) -> BTreeSet<String> {
     let differ = values
         .iter()
         .filter(|((system, _), (count, own))| own.len() > 1 || *count < counts[system]);
+    let mut differ: Vec<String> = differ.map(|((_, path), _)| path.to_string()).collect();
+    // by the steps of their paths: what is of the whole machine before what is of one of its parts
+    differ.sort_by_key(|path| (path.matches('.').count(), path.clone()));
+    differ.dedup();
     differ
-        .map(|((_, path), _)| path.to_string())
-        .take(MOST_INPUTS)
-        .collect()
 }
 
 /// The page of runs side by side.
@@ -324,6 +367,29 @@ mod tests {
         ] {
             assert_eq!(stem(directory), name);
         }
+    }
+
+    /// What a machine has in lists makes its runs stale as well: unbalance, magnets, events.
+    #[test]
+    fn inputs_of_a_machine_are_those_of_its_parts_too() {
+        let place = tempfile::tempdir().unwrap();
+        let path = place.path().join("machine.toml");
+        let text = include_str!("../../../scenarios/machine_axis_lost.toml");
+        fs::write(&path, text).unwrap();
+        let inputs = given(&path, "machine").unwrap().inputs;
+        for (name, value) in [
+            ("rotor.unbalance.wheel.amount", "10 g mm"),
+            (
+                "levitation.magnet.drive_end.position_stiffness",
+                "1.6e5 N/m",
+            ),
+            ("event.braking.torque", "2 N m"),
+            ("rotor.speed", "6000 rpm"),
+        ] {
+            assert_eq!(inputs.get(name).map(String::as_str), Some(value), "{name}");
+        }
+        assert!(inputs.keys().any(|name| name.ends_with("proportional")));
+        assert!(inputs.keys().any(|name| name.ends_with("outer_diameter")));
     }
 
     #[test]

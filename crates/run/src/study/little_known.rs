@@ -119,10 +119,14 @@ impl Study {
                 }
             }
             if by_user {
-                let parts = resolved.assumed_values_of_parts();
+                let parts = resolved.assumed_of_parts();
                 let parts = parts.filter(|(path, ..)| !drawn.iter().any(|own| own == path));
-                found.extend(parts.map(|(path, value, why)| {
-                    (path.to_string(), value.to_string(), why.to_string())
+                found.extend(parts.map(|(path, known)| {
+                    (
+                        path.to_string(),
+                        known.text.clone(),
+                        known.provenance.note(),
+                    )
                 }));
             }
         }

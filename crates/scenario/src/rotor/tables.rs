@@ -11,6 +11,7 @@ use physics::shaft::MATERIALS;
 use problem::key::quoted;
 use problem::raw::{Raw, Written, collect, raw, tables};
 use problem::table::Table;
+use problem::value::Known;
 use problem::{Code, Place, Problem, Result};
 use std::ops::Deref;
 use toml::de::{DeTable, DeValue};
@@ -290,14 +291,14 @@ fn known_materials(all: &[Part], values: &Values) -> Result<Vec<Part>> {
         .collect()
 }
 
-/// The parts of a document as its resolved file has them, each with the paths of what is assumed of it.
-pub fn toml(document: &Document, values: &Values) -> Vec<(String, Vec<String>)> {
+/// The parts of a document as its resolved file has them, each with its values by their paths.
+pub fn toml(document: &Document, values: &Values) -> Vec<(String, Vec<(String, Known)>)> {
     let parts = resolve(document, values).unwrap_or_default();
     let of = |part: &Part| {
-        let known = part.known.iter();
-        let assumed = known.filter(|(_, known)| known.provenance.mark() == "assumed");
         let path = |key: &str| format!("{}.{}.{key}", part.kind.path(), part.label);
-        (part.toml(), assumed.map(|(key, _)| path(key)).collect())
+        let known = part.known.iter();
+        let known = known.map(|(key, known)| (path(key), known.clone()));
+        (part.toml(), known.collect())
     };
     parts.iter().map(of).collect()
 }

@@ -259,6 +259,7 @@ pub(crate) fn assumed(
             scenario
                 .resolved
                 .assumed_of_parts()
+                .map(|(path, _)| path)
                 .filter(|_| name.is_none()),
         )
         .collect();

@@ -29,7 +29,7 @@ let fading = 0;
 // Whether the line says that the studio does not answer.
 let answeredNot = false;
 
-// A line that is read and goes away; a fault stays until the next one, a click on it or Esc.
+// A line that is read and goes away; a fault stays until the next thing that is asked for, a click on it or Esc.
 function say(words, fault = false) {
   const line = byId("said");
   answeredNot = false;
@@ -68,6 +68,7 @@ function fail(problem) {
 // Does what a person asked for, and names what was wrong with it.
 function attempt(act) {
   return async (...given) => {
+    if (byId("said").classList.contains("fault") && !answeredNot) say("");
     try {
       return await act(...given);
     } catch (problem) {

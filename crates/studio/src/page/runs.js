@@ -14,8 +14,20 @@ async function stop(id) {
   await refresh();
 }
 
+// The first jobs. What can be pressed stays the same element while nothing but the share done changes.
+let queued = { key: "", node: null };
+
 function queue() {
-  return el("ol", { class: "queue" }, state.jobs.slice(0, 12).map((job) => el("li", { class: `job ${job.state}` },
+  const jobs = state.jobs.slice(0, 12);
+  const key = JSON.stringify(jobs.map((job) => [job.id, job.state]));
+  if (queued.key !== key) queued = { key, node: queueOf(jobs) };
+  const running = jobs.filter((job) => !ends(job));
+  queued.node.querySelectorAll("progress").forEach((meter, k) => (meter.value = running[k].share));
+  return queued.node;
+}
+
+function queueOf(jobs) {
+  return el("ol", { class: "queue" }, jobs.map((job) => el("li", { class: `job ${job.state}` },
     el("a", { href: `#/job/${job.id}` }, job.file.replace(/\.toml$/, ""), job.task === "run" ? "" : ` · ${job.task}`),
     el("span", { class: "state" }, STATE_WORDS[job.state]),
     ends(job) ? null : bar(job.share),
@@ -29,6 +41,7 @@ function jobView(id) {
   const line = el("p", { class: "job-line" });
   const node = el("div", { class: "job-view" }, head, line, live.node);
   let shown = "";
+  let meter = null;
   return {
     node,
     async update() {
@@ -37,21 +50,24 @@ function jobView(id) {
         node.replaceChildren(el("p", { class: "absent" }, "This run is not in the queue of this session; the table of runs has it where it left a directory."));
         return;
       }
-      const now = JSON.stringify([job.state, job.words, job.share, Math.floor(job.seconds * 5), job.directory]);
+      const now = JSON.stringify([job.state, job.directory]);
       if (now !== shown) {
         shown = now;
+        meter = ends(job) ? null : bar(job.share);
         head.replaceChildren(...[
           el("h1", {}, job.file),
           el("span", { class: `status ${job.state}` }, STATE_WORDS[job.state]),
-          ends(job) ? null : bar(job.share),
+          meter,
           el("span", { class: "grow" }),
           ["waiting", "running"].includes(job.state) ? button("Stop", attempt(() => stop(id)), { class: "stop" }) : null,
           el("a", { class: "button", href: hrefOf("edit", job.file) }, "Edit"),
           ends(job) && job.directory ? el("a", { class: "button first", href: hrefOf("run", job.directory) }, "Results") : null,
         ].filter(Boolean));
-        line.textContent = [job.words, ends(job) || job.seconds ? secondsText(job.seconds) : "", job.state === "stopping" ? "stops at the next step and keeps what was computed" : ""].filter(Boolean).join(" · ");
         line.classList.toggle("fault", job.state === "failed");
       }
+      if (meter) meter.value = job.share;
+      const rest = job.state === "stopping" ? "stops at the next step and writes what was computed" : job.share >= 1 && !ends(job) ? "writes its results" : "";
+      line.textContent = [job.words, ends(job) || job.seconds ? secondsText(job.seconds) : "", rest].filter(Boolean).join(" · ");
       if (["running", "stopping"].includes(job.state) || (ends(job) && !live.node.children.length)) await live.update(id);
     },
   };
@@ -77,7 +93,7 @@ function resultCell(row, short) {
 }
 
 async function runsView() {
-  const { rows, inputs } = await ask("/api/runs");
+  const { rows, inputs, more } = await ask("/api/runs");
   if (!rows.length) return el("div", { class: "runs" }, el("h1", {}, "Runs"), el("p", { class: "absent" }, "No run yet: open a file and run it."));
   const chosen = new Set();
   const compare = button("Compare", () => go("compare", [...chosen].join(",")), { disabled: true, class: "first" });
@@ -114,7 +130,7 @@ async function runsView() {
   ];
   const heads = ["", "run", "system", "input", ...inputs, ...results, "limits", "date"];
   return el("div", { class: "runs" },
-    el("div", { class: "toolbar" }, el("h1", {}, "Runs"), el("span", { class: "grow" }), compare),
+    el("div", { class: "toolbar" }, el("h1", {}, "Runs"), el("span", { class: "grow" }), more ? el("span", { class: "absent" }, `${more} more inputs differ: compare runs to see all`) : null, compare),
     el("div", { class: "wide" }, el("table", {}, el("thead", {}, el("tr", {}, heads.map((head, k) => el("th", { class: k > 3 && k < 4 + inputs.length ? "input" : "" }, head)))), el("tbody", {}, rows.map((row) => el("tr", {}, cells(row)))))));
 }
 

@@ -54,7 +54,8 @@ async function refresh() {
     listed = now;
     if (!making) files();
   }
-  sideBox.queue.replaceChildren(...(state.jobs.length ? [el("h2", {}, "Queue"), queue()] : []));
+  const own = state.jobs.length ? queue() : null;
+  if (!own || own.parentNode !== sideBox.queue) sideBox.queue.replaceChildren(...(own ? [el("h2", {}, "Queue"), own] : []));
   const busy = state.jobs.filter((job) => !ends(job)).length;
   document.title = busy ? `(${busy}) auxbear studio` : "auxbear studio";
 }
