@@ -20,7 +20,7 @@ function measuredFigure(run, column, channels) {
   const known = channels.filter(({ name }) => columnOf(run, name));
   const several = channels.some(({ drop }) => drop);
   const words = ({ drop }) => (several ? `measured, drop ${drop || 1}` : "measured");
-  const line = (label, own, look) => ({ label: `${label} [${shown}]`, time: run.time, values: own, ...look });
+  const line = (label, own, look) => ({ label: `${label} [${shown}]`, time: run.time, values: own, gaps: true, ...look });
   const of = (channel, index) => ({ colour: RUN_COLOURS[index % RUN_COLOURS.length], width: 1.25 });
   const both = [line("predicted", predicted, { colour: INK, width: 1.75 }), ...known.map((channel, index) => line(words(channel), values(channel.name), of(channel, index)))];
   const apart = (channel) => values(channel.name).map((value, row) => (isNumber(value) && isNumber(predicted[row]) ? value - predicted[row] : null));

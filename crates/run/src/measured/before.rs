@@ -9,7 +9,8 @@
 //! Of a channel that stands still before the release, as the speed of a race, the noise is that of its motion: the median second difference.
 //! Valid: a speed that differs from that of the run by a constant; other motions of the rotor before the release count as noise.
 
-use super::{Curve, alone};
+use super::Curve;
+use super::samples::alone;
 use outcome::Outcome;
 use statistics::interpolation::{between, held};
 use statistics::least_squares::LeastSquares;

@@ -9,15 +9,18 @@
 //! | here | channels of files on the run's clock; columns `measured.*`; differences with what the noise of a channel explains |
 //! | [`before`] | the stretch before the release: mean, synchronous orbit, noise |
 //! | [`features`] | contact, rebound, spin-up, orbit: of the measured and of the predicted curve, with their uncertainty |
+//! | [`samples`] | samples that no motion makes, and what a straight line explains |
 //! | [`warnings`] | what the comparison does not show |
 //!
 //! Not modelled: errors of the clock, drift and offset of a sensor; noise is taken as that of one standard deviation throughout.
 
 mod before;
 mod features;
+mod samples;
 pub(crate) mod warnings;
 
 use before::{Before, Turning};
+use outcome::limits::is_of;
 use outcome::list::{List, origins, results};
 use outcome::{Column, Outcome, Quantity, counted_from};
 use problem::{Code, Result, did_you_mean};
@@ -33,13 +36,6 @@ const GAP: f64 = 3.5;
 const BAND: f64 = 2.0;
 /// Values of a file within the run, at least.
 const FEWEST: usize = 2;
-/// Deviations from which on a sample stands alone beside its neighbours; noise of 100 000 samples comes to six.
-const ALONE: f64 = 8.0;
-/// Neighbouring samples of one value that are no chance, and the share of its range that the prediction moves meanwhile.
-const HELD: usize = 6;
-const MOVES: f64 = 0.05;
-/// Share of its noise that a channel beyond the end of its range has at most.
-const QUIET: f64 = 0.5;
 /// What names of results and columns begin with.
 const MEASURED: &str = "measured";
 
@@ -66,6 +62,8 @@ pub(crate) struct Compared {
     before: Before,
     /// Where its first gap after the release begins, s from the release.
     gap: Option<f64>,
+    /// Share of the run from its first contact on in which the file has values.
+    covered: f64,
 }
 
 /// Reads the channels that a scenario names, and checks that the run has such columns.
@@ -229,6 +227,20 @@ impl Curve {
         })
     }
 
+    /// Share of the run in which it has values: from the first contact that is predicted, or the release, to the end.
+    fn covered(&self, outcome: &Outcome, release: f64) -> f64 {
+        let from = release + first_contact(outcome).unwrap_or(0.0);
+        let time = outcome.column("time");
+        let end = time.and_then(|time| time.values.last().copied());
+        let Some(end) = end.filter(|end| *end > from) else {
+            return 1.0;
+        };
+        let within = self.times.windows(2);
+        let within = within.filter(|two| two[1] - two[0] <= self.longest);
+        let length = within.map(|two| (two[1].min(end) - two[0].max(from)).max(0.0));
+        length.sum::<f64>() / (end - from)
+    }
+
     fn compared(&self, outcome: &Outcome, release: f64, turning: Option<&Turning>) -> Compared {
         let mut compared = Compared {
             before: self.before(release, turning),
@@ -236,6 +248,7 @@ impl Curve {
                 .gaps(release, f64::INFINITY)
                 .next()
                 .map(|gap| gap[0] - release),
+            covered: self.covered(outcome, release),
             ..Compared::default()
         };
         let [times, values] = ["time", &self.given.column]
@@ -269,65 +282,6 @@ impl Compared {
         Some(self.differences().map(|own| own / deviation).collect())
     }
 
-    /// The longest stretch of neighbouring samples of one value, or at the end of the channel's range with less than its noise, over which the
-    /// prediction moves by more than noise and a share of its range, and beyond that end: how many, the first row, and by how much it moves.
-    fn held(&self) -> Option<(usize, usize, f64)> {
-        let deviation = self.deviation().unwrap_or(0.0);
-        let noise = ALONE * deviation;
-        let least = noise.max(MOVES * self.range());
-        let (lowest, highest) = ends(&self.measured);
-        let mut longest: Option<(usize, usize, f64)> = None;
-        for within in [0.0, noise] {
-            let mut first = 0;
-            while first < self.measured.len() {
-                let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
-                let near = self.measured[first..].iter().take_while(|own| {
-                    (low, high) = (low.min(**own), high.max(**own));
-                    high - low <= within
-                });
-                let count = near.count();
-                let rows = first..first + count;
-                let (own, predicted) = (&self.measured[rows.clone()], ends(&self.predicted[rows]));
-                let beyond = own.contains(&highest) && predicted.1 > highest + noise
-                    || own.contains(&lowest) && predicted.0 < lowest - noise;
-                // a rotor that rests shows the noise of its sensor, one beyond the end of the range less
-                let quiet =
-                    count >= 2 * HELD && beyond && before::white(own).deviation < QUIET * deviation;
-                let moves = predicted.1 - predicted.0;
-                let is_held = count >= HELD && moves > least && (within == 0.0 || quiet);
-                if is_held && longest.is_none_or(|(samples, ..)| count > samples) {
-                    longest = Some((count, first, moves));
-                }
-                first += count.max(1);
-            }
-        }
-        longest
-    }
-
-    /// Range of the measured values over that of the predicted ones.
-    fn ranges(&self) -> f64 {
-        let (low, high) = ends(&self.measured);
-        (high - low) / self.range()
-    }
-
-    /// Slope and offset of the straight line through the measured over the predicted values, and the share of the difference that it leaves.
-    fn line(&self) -> Option<[f64; 3]> {
-        let of = Some(self.range()).filter(|range| *range > 0.0)?;
-        let rows = self.predicted.iter().map(|own| [1.0, own / of]);
-        let ([offset, slope], _) = before::solved(rows.collect(), &self.measured)?;
-        let (slope, offset) = (slope.value / of, offset.value);
-        let both = self.measured.iter().zip(&self.predicted);
-        let beside = both.map(|(own, predicted)| own - offset - slope * predicted);
-        let left = root_mean_square(beside, NOTHING_COMMON).ok()?;
-        Some([slope, offset, left / self.rms().ok()?])
-    }
-
-    /// Rows of the samples that stand alone, and by how much.
-    fn alone(&self, values: &[f64]) -> Vec<(usize, f64)> {
-        self.deviation()
-            .map_or(Vec::new(), |deviation| alone(values, deviation))
-    }
-
     fn rms(&self) -> Result<f64, String> {
         root_mean_square(self.differences(), NOTHING_COMMON)
     }
@@ -346,8 +300,9 @@ impl Compared {
     }
 
     fn relative(&self) -> Result<f64, String> {
-        let range = Some(self.range()).filter(|range| *range > 0.0);
-        Ok(self.rms()? / range.ok_or("the predicted column does not change")?)
+        let noise = self.deviation().unwrap_or(0.0);
+        let range = Some(self.range()).filter(|range| *range > noise);
+        Ok(self.rms()? / range.ok_or("the predicted column does not move beyond noise")?)
     }
 
     fn misfit(&self) -> Result<f64, String> {
@@ -363,21 +318,12 @@ impl Compared {
     }
 }
 
-/// Rows of the samples that stand alone, and by how much: beside the cubic through two neighbours on each side by more than noise.
-fn alone(values: &[f64], deviation: f64) -> Vec<(usize, f64)> {
-    let five = values.windows(5);
-    let beside: Vec<f64> = five
-        .map(|own| (own[2] - (4.0 * (own[1] + own[3]) - own[0] - own[4]) / 6.0).abs())
-        .collect();
-    // beside one that stands alone its neighbours are off as well, by less
-    let largest = |row: &usize| {
-        let around = &beside[row.saturating_sub(2)..beside.len().min(row + 3)];
-        around.iter().all(|own| *own <= beside[*row])
-    };
-    let far = (0..beside.len()).filter(|row| beside[*row] > ALONE * deviation);
-    far.filter(largest)
-        .map(|row| (row + 2, beside[row]))
-        .collect()
+/// The first contact of a run at any bearing, s from the release.
+fn first_contact(outcome: &Outcome) -> Option<f64> {
+    let contacts = outcome.quantities.iter();
+    let contacts = contacts.filter(|own| is_of(&own.name, "time_to_first_contact"));
+    let contacts = contacts.filter_map(|own| outcome.number(&own.name));
+    contacts.reduce(f64::min)
 }
 
 /// Least and largest value.
@@ -555,6 +501,7 @@ run.misfit()
         "measured.*.relative_difference": number "1" headline, RELATIVE, "rms difference over the range of the prediction" in measured_difference "over the range [%]" => run.0.relative();
         "measured.*.misfit": number "1", MISFIT, "rms difference over the standard deviation of the channel" in measured_difference "over the deviation" => run.0.misfit();
         "measured.*.share_within_band": number "1", SHARE, "share of the samples within two standard deviations" in measured_difference "within two deviations [%]" => run.0.share();
+        "measured.*.share_compared": number "1", COVERED, "share of the run from its first contact on that is compared" in measured_difference "of the run compared [%]" => run.0.covered;
         "measured.*.rms_difference_from_drop_1": number "of the column", RMS, "root mean square of this drop less the first" in measured_difference "rms difference from drop 1" when curve.given.drop > 1 => curve.less_first(run.1);
     }
 }
@@ -579,6 +526,9 @@ origins! {
     MISFIT: law "rms_difference over deviation; of all channels of the first drop that of all their samples",
         source HERE,
         valid "1 where noise alone explains the difference; larger where the model, an input or the clock is off";
+    COVERED: law "time between samples of the file, without its gaps, over the time of the run; both from the first contact that is predicted, or from the release",
+        source HERE,
+        valid "below one half nothing is said of the motion after the contact: AB2352";
     SHARE: law "share of the samples with |measured - predicted| of two deviations at most",
         source HERE,
         valid "0.95 where normal noise alone explains the difference";

@@ -1,7 +1,6 @@
 //! What a comparison with measured channels does not show.
 
-use super::{Curve, Run, features};
-use outcome::limits::is_of;
+use super::{Curve, Run, features, first_contact};
 use outcome::{Judged, Verdict, Warning};
 use problem::warning::Severity;
 use std::f64::consts::PI;
@@ -19,6 +18,8 @@ const SIZE: f64 = 4.0;
 /// A straight line explains a channel that differs from its prediction by this share of its range, where it leaves so much of the difference.
 const DIFFERS: f64 = 0.02;
 const LEAVES: f64 = 0.5;
+/// Share of a run that is compared, at least.
+const LEAST: f64 = 0.5;
 /// Rows are coarser than the file from this ratio of intervals on.
 const COARSER: f64 = 1.5;
 
@@ -35,15 +36,15 @@ problem::warnings! {
         Held { part: text, count: "", from: "s", to: "s", moves: "of the column" } "AB2349" Invalid ("Channel of {part} keeps its value from {from:.4} s to {to:.4} s ({count:.0} samples), where the prediction moves by {moves:.2e}: dead, stuck or at the end of its range. What is compared there is not the machine.");
         OtherSize { part: text, ratio: "1" } "AB2350" Invalid ("Channel of {part} covers {ratio:.2e} times the range of the prediction: its unit, its scale or the channel is another one, or the machine does not do what this run predicts.");
         Rescaled { part: text, slope: "1", offset: "of the column", left: "1" } "AB2351" Uncertain ("Channel of {part} is nearest to {slope:.3} times the prediction and {offset:.2e} beside it; that leaves {:.0} % of the difference. Its scale or its zero is another one, or an input of the run acts alike: misfit, features and estimates take it as it is.", 100.0 * left);
-        EndsBefore { part: text, end: "s", contact: "s" } "AB2352" Invalid ("File of {part} ends at {end:.4} s, and the first contact is predicted at {contact:.4} s: nothing of the impact is compared, whatever its misfit.");
+        Uncovered { part: text, share: "1", contact: "s" } "AB2352" Invalid ("File of {part} has values in {:.0} % of the run from its first contact on, predicted at {contact:.4} s: the impacts are not compared, whatever its misfit. A shorter run.duration ends the run with the file.", 100.0 * share);
         Backward { part: text } "AB2348" Invalid ("The orbit of {part} before the release turns against the rotor: x and y exchanged, or one of them of the wrong sign (scale = -1). Only between two critical speeds of unequal supports does unbalance make such an orbit. What is compared here is a mirrored motion.");
     }
 }
 
 pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
     use MeasuredWarning::{
-        Alone, Backward, Coarse, EndsBefore, Gaps, Held, OtherNoise, OtherSize, PartOfRun,
-        PhaseDiffers, PhaseUnknown, Rescaled,
+        Alone, Backward, Coarse, Gaps, Held, OtherNoise, OtherSize, PartOfRun, PhaseDiffers,
+        PhaseUnknown, Rescaled, Uncovered,
     };
     let mut list: Vec<MeasuredWarning> = Vec::new();
     let time = run
@@ -54,10 +55,7 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
         return Vec::new();
     };
     let mean = |times: &[f64]| (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-    let contacts = run.outcome.quantities.iter();
-    let contacts = contacts.filter(|own| is_of(&own.name, "time_to_first_contact"));
-    let contacts = contacts.filter_map(|own| run.outcome.number(&own.name));
-    let contact = contacts.map(|own| own + run.release).reduce(f64::min);
+    let contact = run.release + first_contact(run.outcome).unwrap_or(0.0);
     for (index, curve) in curves.iter().enumerate() {
         let part = || curve.name.clone();
         let (interval, [from, to]) = (mean(&curve.times), curve.span());
@@ -101,10 +99,12 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 moves,
             });
         }
-        let ratio = own.ranges();
-        let moves = own.range() > MOVES * own.deviation().unwrap_or(0.0);
-        if moves && ratio.is_finite() && !(1.0 / SIZE..SIZE).contains(&ratio) {
-            let part = part();
+        let ([measured, predicted], noise) = (own.ranges(), MOVES * own.deviation().unwrap_or(0.0));
+        let smaller = predicted > noise && measured < predicted / SIZE;
+        // a unit that is a thousand times another one enlarges the noise as well
+        let larger = predicted > 1e-3 * noise && measured - noise > SIZE * predicted;
+        if smaller || larger {
+            let (part, ratio) = (part(), measured / predicted);
             list.push(OtherSize { part, ratio });
         } else if let (Some([slope, offset, left]), Ok(differs)) = (own.line(), own.relative())
             // what falls is bounded by clearances; speeds and forces follow friction and damping
@@ -132,9 +132,13 @@ pub(super) fn of(curves: &[Curve], run: &Run) -> Vec<Warning> {
                 at: own.time[*first] + run.release,
             });
         }
-        if let Some(contact) = contact.filter(|contact| to < *contact) {
-            let (part, end) = (part(), to);
-            list.push(EndsBefore { part, end, contact });
+        let share = own.covered;
+        if share < LEAST {
+            list.push(Uncovered {
+                part: part(),
+                share,
+                contact,
+            });
         } else if from > begin + interval || to < end - interval {
             let (part, from, to, end) = (part(), from.max(*begin), to.min(*end), *end);
             list.push(PartOfRun {

@@ -212,7 +212,10 @@ impl Study {
         if unlimited {
             return Some("no limit is of this case".to_string());
         }
-        if let Some(why) = self.cut_short(rows, table) {
+        // what failed has reasons of its own
+        let ended = |row: &&usize| !table.failed.contains_key(&table.members[**row]);
+        let rows: Vec<usize> = rows.iter().filter(ended).copied().collect();
+        if let Some(why) = self.cut_short(&rows, table) {
             return Some(why);
         }
         let mut never = NEVER.iter().filter_map(|(code, why)| {

@@ -400,6 +400,24 @@ fn damage_of_channels_is_found_and_hides_no_feature() {
         "{codes:?}"
     );
 
+    // one whose gap is where the rotor bounces, or that begins thereafter
+    for from in [contact - 1e-3, f64::NEG_INFINITY] {
+        let (codes, _) = damaged(&scenario, &run, |curve| {
+            let last = curve.times[curve.times.len() - 1];
+            let kept = |time: f64| time < from || time > last - 1e-3;
+            let rows = curve.times.iter().zip(&curve.values);
+            let rows = rows.filter(|(time, _)| kept(**time));
+            (curve.times, curve.values) = rows.map(|(time, value)| (*time, *value)).unzip();
+        });
+        assert!(codes.contains(&"AB2352"), "{from}: {codes:?}");
+    }
+
+    // a thousand times the unit, with its noise
+    let (codes, _) = damaged(&scenario, &run, |curve| {
+        curve.values.iter_mut().for_each(|value| *value *= 1e3);
+    });
+    assert!(codes.contains(&"AB2350"), "{codes:?}");
+
     // a gap over the first impact: features before it stay, those after it are not given
     let (codes, gapped) = damaged(&scenario, &run, |curve| {
         let keep = |time: &f64| (time - contact).abs() > 3e-3;
