@@ -140,6 +140,15 @@ fn what_a_study_refuses() {
         &["AB2203", "`seed = 3`", "`seed = 4`"],
     );
     refused("8 ms", "9 ms", &["AB2203", "scenario.toml", "duration"]);
+    // words are no other study
+    fs::write(
+        place.path("study.toml"),
+        short.replace("seed = 3", "title = \"Revision B\"\nseed = 3"),
+    )
+    .unwrap();
+    place.call(&["study", "study.toml", "--out", "s"]).done();
+    let kept = fs::read_to_string(place.path("s/study.toml")).unwrap();
+    assert!(kept.contains("Revision B"), "{kept}");
     refused(
         "lognormal = 0.2",
         "lognormal = 0.2\nnormal = 0.1",

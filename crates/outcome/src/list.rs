@@ -122,6 +122,13 @@ pub const NOT_GIVEN: &str = " is not given";
 /// Why a result has no value before a run.
 const BEFORE_THE_RUN: &str = "not known before the run";
 
+impl Quantity {
+    /// Why a run cannot have it whatever happens, as far as that is known before.
+    pub fn why_never(&self) -> Option<&str> {
+        self.value.why_absent().filter(|why| *why != BEFORE_THE_RUN)
+    }
+}
+
 /// Why a result cannot be had whose key is left out; none where it is given.
 pub fn not_given<T>(key: &str, value: Option<T>) -> Option<String> {
     value.is_none().then(|| format!("{key}{NOT_GIVEN}"))

@@ -39,6 +39,21 @@ const A_THREAD: usize = 64;
 const AT_FIRST: usize = 16;
 /// What takes less time than this is written with more, s.
 const SOON: f64 = 10.0;
+/// What a study says in words: its document changes with them, and nothing that is computed.
+const WORDS: [&str; 12] = [
+    "",
+    "title",
+    "source",
+    "[document]",
+    "machine",
+    "author",
+    "revision",
+    "environment",
+    "expected",
+    "[[requirement]]",
+    "text",
+    "why",
+];
 
 /// A study with its directory, which no other process may use meanwhile.
 pub struct Directory {
@@ -97,9 +112,9 @@ impl Directory {
             known: quantities,
         } = study;
         let (file, changed) = if known.is_file() {
-            let before = resumed(path, file)?;
+            let (before, reworded) = resumed(path, file)?;
             match add {
-                0 => (before, false),
+                0 => (before, reworded),
                 more => (before.extended(more)?, true),
             }
         } else if new || is_empty() || only_begun(path) {
@@ -348,8 +363,8 @@ fn screened(path: &Path, study: &Study) -> Result<Table> {
     Ok(study.in_order(table))
 }
 
-/// The study as it stood in its directory, with the blocks that were added; refused where it is another.
-fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile> {
+/// The study as it stood in its directory, with the blocks that were added, and whether its words differ; refused where it is another.
+fn resumed(path: &Path, file: StudyFile) -> Result<(StudyFile, bool)> {
     let known = path.join(STUDY);
     let read = |name: &str| {
         let path = path.join(name);
@@ -376,6 +391,8 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile> {
         Err(Problem::at_path(Code::StudyChanged, &known, found, allowed))
     };
     let now = headed(&file);
+    let reworded = before != now;
+    let (before, now) = (computing(&before), computing(&now));
     if before != now {
         return differs(STUDY, &before, &now);
     }
@@ -383,7 +400,17 @@ fn resumed(path: &Path, file: StudyFile) -> Result<StudyFile> {
     if before != now {
         return differs(SCENARIO, &before, &now);
     }
-    Ok(file)
+    Ok((file, reworded))
+}
+
+/// What a study asks to be computed, without the words of its document.
+fn computing(text: &str) -> String {
+    let is_words = |line: &&str| {
+        let key = line.split_once(" = ").map_or(*line, |(key, _)| key);
+        WORDS.contains(&key)
+    };
+    let lines = text.lines().filter(|line| !is_words(line));
+    lines.collect::<Vec<_>>().join("\n")
 }
 
 /// The resolved study with the version that computes it.

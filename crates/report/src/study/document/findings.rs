@@ -12,7 +12,7 @@ use run::study::failure_modes::{FAILURE_MODES, FailureMode};
 use run::study::in_a_row::InARow;
 use run::study::little_known::Owed;
 use run::study::selection::Candidate;
-use run::study::table::warned;
+use run::study::table::{CONFIRMED, warned};
 use scenario::{Limit, Side};
 use statistics::share::wilson;
 
@@ -23,8 +23,11 @@ impl Document<'_> {
     /// That the runs were computed at screening accuracy.
     pub(super) fn at_screening(&self) -> Option<String> {
         let accuracy = self.study.file.scenario.resolved.get("run.accuracy")?;
+        let columns = self.table.columns.iter();
+        let mut confirmed = columns.filter(|column| column.name.starts_with(CONFIRMED));
+        let confirmed = confirmed.any(|column| column.values.iter().any(|own| own.is_finite()));
         (accuracy.text.as_deref() == Some("screening")).then(|| {
-            let confirmed = match self.study.file.confirm > 0 {
+            let confirmed = match confirmed {
                 true => ": those near a limit were confirmed at design accuracy",
                 false => ": a margin of a few per cent is none, as no run was confirmed at design accuracy",
             };
@@ -344,6 +347,26 @@ impl Document<'_> {
             .collect()
     }
 
+    /// What a limit holds after each drop of a row: of results that add up, such as wear and life, the sum so far.
+    pub(super) fn after_each(&self, values: Vec<Option<f64>>, limit: &Limit) -> Vec<Option<f64>> {
+        if !self.adds_up(limit) {
+            return values;
+        }
+        let mut sum = Some(0.0);
+        let so_far = values.into_iter().map(|own| {
+            sum = Some(sum? + own?);
+            sum
+        });
+        so_far.collect()
+    }
+
+    /// Whether what a limit bounds from above adds up over drops.
+    pub(super) fn adds_up(&self, limit: &Limit) -> bool {
+        let mut known = self.study.known.iter();
+        let own = known.find(|own| own.name == limit.quantity);
+        limit.side == Side::Most && own.is_some_and(|own| own.words_in("added_up").is_some())
+    }
+
     /// Drops in a row: what wear leaves, and what requirements say of each.
     fn in_a_row(&self) -> String {
         let asked = self
@@ -373,12 +396,13 @@ impl Document<'_> {
             let bounded = limits.map(|limit| {
                 let values = self.of_row(k, row, limit);
                 let [first, last] = ends(&values, self.unit_of(limit));
-                let broken = values
-                    .iter()
-                    .flatten()
-                    .filter(|value| !limit.side.holds(**value, limit.bound))
-                    .count();
-                let told = format!("{broken} of {} beyond", values.iter().flatten().count());
+                let after = self.after_each(values, limit);
+                let beyond = |value: &f64| !limit.side.holds(*value, limit.bound);
+                let broken = after.iter().flatten().filter(|own| beyond(own)).count();
+                let told = match (self.adds_up(limit), after.iter().flatten().last()) {
+                    (true, Some(sum)) => format!("sum {}", cell(Some(*sum), self.unit_of(limit))),
+                    _ => format!("{broken} of {} beyond", after.iter().flatten().count()),
+                };
                 let told = if broken > 0 {
                     format!("<b class=\"failed\">{told}</b>")
                 } else {
@@ -422,7 +446,7 @@ impl Document<'_> {
         }
         out.push_str(&note(
             "Drop 1 is the run nearest to a requirement. Each later one has the radial clearance widened by the wear of those before (where <code>contact.surface.wear_coefficient</code> is given), \
-             the grease as they left it, and another angle of the unbalance. Dents do not change later motion in this model. That no drop is beyond a bound shows nothing more than that.",
+             the grease as they left it, and another angle of the unbalance. Dents do not change later motion in this model. Wear and life add up: a requirement on them is met while the sum of the drops so far holds it. That no drop is beyond a bound shows nothing more than that.",
         ));
         out
     }

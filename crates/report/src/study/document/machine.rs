@@ -179,8 +179,27 @@ impl Document<'_> {
         }
         let mut warned = rotor.warnings.iter();
         let warned = warned.find(|own| WHIRL.contains(&own.code))?;
+        let forces = rotor.quantities.iter();
+        let forces = forces.filter(|own| own.words_in("whirl") == Some("contact force there"));
+        let forces = forces.filter_map(|own| rotor.number(&own.name));
+        let force = forces.reduce(f64::max).map_or(String::new(), |force| {
+            let beyond = requirements.iter().enumerate().filter(|(_, own)| {
+                own.verdict == Verdict::Pass
+                    && own.limit.quantity.ends_with("contact_force")
+                    && !own.limit.side.holds(force, own.limit.bound)
+            });
+            let beyond: Vec<String> = beyond.map(|(k, _)| format!("R{}", k + 1)).collect();
+            let beyond = match beyond.is_empty() {
+                true => String::new(),
+                false => format!(", beyond {}", beyond.join(", ")),
+            };
+            format!(
+                "; where it comes it settles at {}{beyond}",
+                cell(Some(force), "N")
+            )
+        });
         Some(format!(
-            "No whirl in these runs, and by the linear analysis it is possible: <code>{}</code> {}, section 3",
+            "No whirl in these runs, and by the linear analysis it is possible: <code>{}</code> {}{force} (section 3)",
             warned.code,
             plain(explain::title(warned.code))
         ))

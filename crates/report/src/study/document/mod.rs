@@ -33,6 +33,8 @@ use std::fmt::Write;
 const NAMED: usize = 6;
 /// Fewer draws have no value that 5 % of them fall below.
 const FEW_DRAWS: usize = 20;
+/// Warnings of what no run can show, which a verdict must not hide.
+const UNSEEN: [&str; 2] = ["AB2415", "AB2417"];
 
 /// What a document is made of.
 pub(super) struct Document<'a> {
@@ -160,13 +162,25 @@ impl Document<'_> {
         let open = all
             .iter()
             .find_map(|(one, ..)| Some((one, one.open.clone()?)));
+        // what no run can have is not for more or longer runs to decide
+        let known = self.study.known.iter();
+        let mut never = known.filter(|own| own.name == limit.quantity);
+        let never = never.find_map(|own| {
+            let never = self.table.reached(&own.name).iter().all(Option::is_none);
+            own.why_never().filter(|_| never)
+        });
         let failed = all.iter().find(|(one, ..)| one.draws[1] > 0);
         let failed = failed.map(|(one, ..)| {
             let why = one.why.as_deref().unwrap_or_default();
             let [draws, failed] = one.draws;
             (one, format!("{failed} of {draws} draws failed: {why}"))
         });
-        let undecided = any(Verdict::Undecided).map(|(one, judged, _)| (one, judged.why.clone()));
+        // of several that the one farthest from a verdict
+        let undecided = all
+            .iter()
+            .filter(|(_, judged, _)| judged.verdict == Verdict::Undecided);
+        let undecided = undecided.min_by_key(|(_, judged, _)| judged.hold);
+        let undecided = undecided.map(|(one, judged, _)| (one, judged.why.clone()));
         let named = |(one, why): (&&Candidate, String)| {
             format!("{}: {}", of_values(&one.values), plain(&why))
         };
@@ -175,20 +189,21 @@ impl Document<'_> {
             limit.case.is_none() || limit.case == self.study.case_of(row.member)
         });
         let in_a_row = rows.clone().find_map(|(k, row)| {
-            let values = self.of_row(k, row, limit);
+            let values = self.after_each(self.of_row(k, row, limit), limit);
             let broken = values.iter().position(|value| {
                 value.is_some_and(|value| !limit.side.holds(value, limit.bound))
             })?;
-            Some(format!(
-                "{}: drop {} in a row",
-                of_values(&row.values),
-                broken + 1
-            ))
+            let values = of_values(&row.values);
+            Some(match (self.adds_up(limit), broken + 1) {
+                (true, drops @ 2..) => format!("{values}: sum of {drops} drops in a row"),
+                (_, drop) => format!("{values}: drop {drop} in a row"),
+            })
         });
         let (verdict, why) = match (any(Verdict::Fail), failed.or(open).or(undecided)) {
             _ if all.is_empty() => (Verdict::Undecided, "no case was judged by it".to_string()),
             (Some((one, judged, _)), _) => (Verdict::Fail, named((one, judged.why.clone()))),
             (None, _) if in_a_row.is_some() => (Verdict::Fail, in_a_row.unwrap_or_default()),
+            (None, _) if never.is_some() => (Verdict::Undecided, plain(never.unwrap_or_default())),
             (None, Some(lacking)) => (Verdict::Undecided, named(lacking)),
             (None, None) => (Verdict::Pass, String::new()),
         };
@@ -334,7 +349,9 @@ impl Document<'_> {
         let warned = warned(self.table);
         let severe: Vec<_> = warned
             .iter()
-            .filter(|own| own.severity() <= Severity::Invalid)
+            .filter(|own| {
+                own.severity() <= Severity::Invalid || UNSEEN.contains(&own.code.as_str())
+            })
             .collect();
         let row = |own: &&run::study::table::Warned| {
             let (code, title, share) = (plain(&own.code), plain(&own.title), own.share(all));
