@@ -3,6 +3,7 @@
 //! | page | sections |
 //! |---|---|
 //! | here | the first page: verdict of each requirement; frame of the document |
+//! | [`requirement`](self::requirement) | a requirement over all runs and over drops in a row |
 //! | [`machine`] | architecture, rotordynamics, environment, events |
 //! | [`findings`] | failure modes, simulation, assumptions and what verdicts owe to them, drops in a row, verdicts of the cases |
 //! | [`test`] | plan of a test, its signals with bands, monitoring, close clearances |
@@ -11,8 +12,10 @@
 
 mod findings;
 mod machine;
+mod requirement;
 mod test;
 
+use self::requirement::Requirement;
 use super::cells::{cell, percent, rows};
 use super::ranking::requirement;
 pub(super) use super::ranking::{of_values, words};
@@ -25,7 +28,7 @@ use run::study::in_a_row::InARow;
 use run::study::little_known::{LittleKnown, Owed};
 use run::study::selection::Candidate;
 use run::study::table::{Column, Table, warned};
-use scenario::{CASE, Limit, Side};
+use scenario::{CASE, Limit};
 use serde_json::{Value, json};
 use std::fmt::Write;
 
@@ -59,17 +62,6 @@ pub(super) struct Document<'a> {
     pub worst_run: Option<(usize, &'a PageRun)>,
     /// Whether every member has run, and all that is computed besides.
     pub complete: bool,
-}
-
-/// A requirement with its verdict.
-pub(super) struct Requirement<'a> {
-    pub limit: &'a Limit,
-    /// The case at its level that is nearest to it or the farthest beyond.
-    pub worst: Option<(&'a Candidate, &'a Judged, Option<usize>)>,
-    /// Met, not met or not shown.
-    pub verdict: Verdict,
-    /// Why it is not shown.
-    pub why: String,
 }
 
 /// The verdict of a requirement.
@@ -142,87 +134,6 @@ impl Document<'_> {
             page::STYLE.concat(),
             include_str!("document.css"),
         )
-    }
-
-    /// The requirements in the order of their files.
-    pub(super) fn requirements(&self) -> Vec<Requirement<'_>> {
-        let limits = self.study.file.limits.iter();
-        limits.map(|limit| self.requirement(limit)).collect()
-    }
-
-    fn requirement<'a>(&'a self, limit: &'a Limit) -> Requirement<'a> {
-        let judged = self.answer.ranking.iter().flat_map(|one| {
-            let own = one.limits.iter().zip(&one.worst);
-            let own = own.filter(|(judged, _)| judged.limit == *limit);
-            own.map(move |(judged, worst)| (one, judged, *worst))
-        });
-        let all: Vec<_> = judged.collect();
-        let any = |verdict| all.iter().find(|(_, judged, _)| judged.verdict == verdict);
-        // what is missing says more than what is not known for lack of it
-        let open = all
-            .iter()
-            .find_map(|(one, ..)| Some((one, one.open.clone()?)));
-        // what no run can have is not for more or longer runs to decide
-        let known = self.study.known.iter();
-        let mut never = known.filter(|own| own.name == limit.quantity);
-        let never = never.find_map(|own| {
-            let never = self.table.reached(&own.name).iter().all(Option::is_none);
-            own.why_never().filter(|_| never)
-        });
-        let failed = all.iter().find(|(one, ..)| one.draws[1] > 0);
-        let failed = failed.map(|(one, ..)| {
-            let why = one.why.as_deref().unwrap_or_default();
-            let [draws, failed] = one.draws;
-            (one, format!("{failed} of {draws} draws failed: {why}"))
-        });
-        // of several that the one farthest from a verdict
-        let undecided = all
-            .iter()
-            .filter(|(_, judged, _)| judged.verdict == Verdict::Undecided);
-        let undecided = undecided.min_by_key(|(_, judged, _)| judged.hold);
-        let undecided = undecided.map(|(one, judged, _)| (one, judged.why.clone()));
-        let named = |(one, why): (&&Candidate, String)| {
-            format!("{}: {}", of_values(&one.values), plain(&why))
-        };
-        let rows = self.rows.iter().enumerate();
-        let rows = rows.filter(|(_, row)| {
-            limit.case.is_none() || limit.case == self.study.case_of(row.member)
-        });
-        let in_a_row = rows.clone().find_map(|(k, row)| {
-            let values = self.after_each(self.of_row(k, row, limit), limit);
-            let broken = values.iter().position(|value| {
-                value.is_some_and(|value| !limit.side.holds(value, limit.bound))
-            })?;
-            let values = of_values(&row.values);
-            Some(match (self.adds_up(limit), broken + 1) {
-                (true, drops @ 2..) => format!("{values}: sum of {drops} drops in a row"),
-                (_, drop) => format!("{values}: drop {drop} in a row"),
-            })
-        });
-        let (verdict, why) = match (any(Verdict::Fail), failed.or(open).or(undecided)) {
-            _ if all.is_empty() => (Verdict::Undecided, "no case was judged by it".to_string()),
-            (Some((one, judged, _)), _) => (Verdict::Fail, named((one, judged.why.clone()))),
-            (None, _) if in_a_row.is_some() => (Verdict::Fail, in_a_row.unwrap_or_default()),
-            (None, _) if never.is_some() => (Verdict::Undecided, plain(never.unwrap_or_default())),
-            (None, Some(lacking)) => (Verdict::Undecided, named(lacking)),
-            (None, None) => (Verdict::Pass, String::new()),
-        };
-        let side = |judged: &Judged| match limit.side {
-            Side::Most => judged.value.map_or(f64::INFINITY, |value| -value),
-            Side::Least => judged.value.unwrap_or(f64::INFINITY),
-        };
-        // one that breaks it first, also by what never came and has no value
-        let holds = |judged: &Judged| judged.verdict != Verdict::Fail;
-        let worst = (all.into_iter()).min_by(|a, b| {
-            let order = holds(a.1).cmp(&holds(b.1));
-            order.then(side(a.1).total_cmp(&side(b.1)))
-        });
-        Requirement {
-            limit,
-            worst,
-            verdict,
-            why,
-        }
     }
 
     fn count(&self, requirements: &[Requirement], verdict: Verdict) -> usize {
@@ -381,9 +292,9 @@ impl Document<'_> {
 
     fn first_table(&self, requirements: &[Requirement]) -> String {
         let row = |(k, one): (usize, &Requirement)| {
-            let judged = one.worst.map(|(_, judged, _)| judged);
+            let judged = one.judged();
             // of what the runs do not decide no distance is known
-            let decided = judged.filter(|_| one.verdict != Verdict::Undecided);
+            let decided = (judged.as_ref()).filter(|_| one.verdict != Verdict::Undecided);
             let margin = decided
                 .and_then(Judged::margin)
                 .map_or("–".to_string(), percent);
@@ -399,12 +310,12 @@ impl Document<'_> {
                     };
                     format!("{}{more}", of_values(&candidate.values))
                 });
+            let place = (one.in_a_row.as_ref()).map_or(place, |(_, place)| place.clone());
             let why = match one.verdict {
                 Verdict::Undecided if one.worst.is_none() => one.why.clone(),
                 Verdict::Undecided => {
                     format!("{}; worst value: {place}{}", one.why, self.breaks_with(k))
                 }
-                Verdict::Fail if one.why.ends_with("in a row") => one.why.clone(),
                 Verdict::Fail => place,
                 Verdict::Pass => format!("{place}{}", self.breaks_with(k)),
             };
@@ -449,7 +360,8 @@ impl Document<'_> {
     /// The requirements as `qualification.json` has them.
     pub(super) fn json(&self) -> String {
         let of = |(k, one): (usize, &Requirement)| {
-            let judged = one.worst.map(|(_, judged, _)| judged);
+            let judged = one.judged();
+            let judged = judged.as_ref();
             let owed = self.owed.iter().find(|owed| owed.limit == k);
             let breaks = |input: usize| {
                 let ends = owed.map_or([None; 2], |owed| owed.ends[input]);
@@ -475,6 +387,7 @@ impl Document<'_> {
                 "worst_value": judged.and_then(|judged| judged.value),
                 "margin": judged.and_then(Judged::margin),
                 "worst_case": one.worst.map(|(candidate, ..)| values_json(&candidate.values)),
+                "in_a_row": one.in_a_row.as_ref().map(|(_, place)| place),
                 "member": one.worst.and_then(|(.., member)| member).filter(|_| one.limit.share >= 1.0),
                 "why": one.why,
                 "broken_with": (0..self.known.len()).filter_map(breaks).collect::<Vec<_>>(),
