@@ -324,12 +324,6 @@ fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Followed)>) -> Vec<Qu
     list.quantities
 }
 
-/// Whether a shoulder of the rotor may meet a face of a bearing.
-fn has_faces(part: Given) -> bool {
-    let faces = &part.contact.faces;
-    faces.gap_to_start.or(faces.gap_to_end).is_some()
-}
-
 /// A coast-down that was followed.
 struct Followed<'a> {
     series: &'a IntervalSeries,
@@ -380,7 +374,7 @@ results! {
         "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless no_width(of.1) => {
             run.seen(of.0, |seen| seen.rise.value / STEEL_CHANGES)
         };
-        "peak_axial_force": number "N", PEAK, "largest force on the faces in the intervals" when has_faces(of.1) => run.seen(of.0, |seen| seen.thrust.value);
+        "peak_axial_force": number "N", PEAK, "largest force on the faces in the intervals" when of.1.contact.faces.any() => run.seen(of.0, |seen| seen.thrust.value);
         "sliding_distance": number "m", SLIDING, "distance slid by rotor and race", unless no_width(of.1) => run.seen(of.0, |seen| seen.rubbed.distance);
         "wear_depth": number "m", WEAR, "mean depth worn off" in added_up "wear depth", unless {
             not_given("contact.surface.wear_coefficient", of.1.contact.wear_coefficient).or(no_width(of.1))
