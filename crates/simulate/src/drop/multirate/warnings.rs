@@ -72,8 +72,11 @@ fn scatters(series: &IntervalSeries) -> Option<Warning> {
     (deviation > SCATTERS).then(|| warning.into())
 }
 
+/// Steps of the logarithm of the speed in which a moment that goes on falling is integrated.
+const STEPS: i32 = 256;
+
 /// A moment that is held to the standstill: for how long, and for how much longer the rotor would turn if it went on as it did on the last third of its
-/// speed until there, M = M₁ (Ω/Ω₁)^p.
+/// speed until there, M = M₁ (Ω/Ω₁)^p, beside what else brakes.
 fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
     let place = series.held?;
     let of_row = |row: &Row| (row.speed, row.moments[0] + row.moments[1]);
@@ -81,20 +84,22 @@ fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
     let (_, moment) = of_row(rows.find(|row| row.speed >= place.speed)?);
     let (faster, before) = of_row(rows.find(|row| row.speed >= 1.5 * place.speed)?);
     let power = (before / moment).ln() / (faster / place.speed).ln();
-    let whole = found.built.inertia * place.speed / moment;
-    // ∫ dx x^−p from the speed of the end on
-    let (left, stop) = (1.0 - power, found.built.end.stop_speed / place.speed);
-    let turns = match left.abs() < 1e-6 {
-        true => -stop.ln(),
-        false => (1.0 - stop.powf(left)) / left,
-    };
+    let held = found.free.state.time - place.time;
+    let slower = (found.built.end.stop_speed / place.speed).powf(1.0 / f64::from(STEPS));
+    let turns = (0..STEPS).map(|step| {
+        let speed = place.speed * slower.powi(step);
+        let middle = speed * slower.sqrt();
+        let beside = found.built.losses(place.time, middle).rotor;
+        let falls = moment * (middle / place.speed).powf(power);
+        found.built.inertia * speed * (1.0 - slower) / (falls + beside.moment(middle))
+    });
     let warning = DropWarning::MomentIsHeld {
         time: place.time,
         speed: place.speed,
         moment,
-        held: found.free.state.time - place.time,
+        held,
         power,
-        longer: whole * (turns - (1.0 - stop)),
+        longer: turns.sum::<f64>() - held,
     };
     power.is_finite().then(|| warning.into())
 }
