@@ -46,6 +46,7 @@ mod signals_analysis;
 mod signals_files;
 mod simulation;
 mod space;
+mod space_coast_down;
 mod speed_channel;
 mod studies;
 mod torque;

@@ -233,8 +233,10 @@ impl BearingConstants {
     }
     /// Changes all speeds of its states that follow the inner race's by one factor, as when all turn faster at once.
     pub fn change_speeds(&self, state: &mut [f64], factor: f64) {
-        let BearingConstants::Planar(bearing) = self else {
-            return;
+        let bearing = match self {
+            BearingConstants::Planar(bearing) => bearing,
+            BearingConstants::Spatial(bearing) => return bearing.change_speeds(state, factor),
+            BearingConstants::Rolling(_) => return,
         };
         state[1] *= factor;
         let [_, _, _, orbit_speeds, spins] =

@@ -108,6 +108,20 @@ impl SpatialBearing {
             first += BALL_STATES * row.balls;
         }
     }
+    /// Changes the spins of cages, and orbits and spins of balls, by one factor.
+    pub fn change_speeds(&self, state: &mut [f64], factor: f64) {
+        for index in 0..self.rows.len() {
+            state[BODY_STATES * index + SPIN] *= factor;
+        }
+        let mut first = BODY_STATES * self.rows.len();
+        for row in &self.rows {
+            for list in [AZIMUTH + 1, 6, 7, 8] {
+                let speeds = &mut state[first + list * row.balls..][..row.balls];
+                speeds.iter_mut().for_each(|speed| *speed *= factor);
+            }
+            first += BALL_STATES * row.balls;
+        }
+    }
     /// The magnitude that matters in each of its own states; `spin` is a speed of the inner ring, `speed` one of centres.
     pub fn error_scale(&self, scale: &mut [f64], spin: f64, speed: f64) {
         let radius = self.rows[0].ball.radius;

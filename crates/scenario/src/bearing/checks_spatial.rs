@@ -105,7 +105,7 @@ impl Context<'_> {
     }
 
     /// What is not computed of a machine whose rotor moves along its axis.
-    pub(crate) fn part_in_space(&self, drop: &Drop, part: &AuxiliaryBearing) -> Check {
+    pub(crate) fn part_in_space(&self, part: &AuxiliaryBearing) -> Check {
         let in_space = |part: &AuxiliaryBearing| {
             (part.bearing.as_ref()).is_some_and(|own| own.spatial.is_some())
         };
@@ -121,10 +121,6 @@ impl Context<'_> {
             };
         }
         let refuse = |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed);
-        if drop.coast_down.is_some() {
-            let needed = "\"duration\" is needed beside bearing.fidelity = \"spatial\": its coast-down is not computed in quasi-steady steps";
-            return refuse("run.until", needed);
-        }
         let centred = part.bearing.as_ref().is_some_and(|own| {
             matches!(&own.separation, Separation::Cage(cage) if cage.guidance == Guidance::Centred)
         });

@@ -28,7 +28,7 @@ impl Context<'_> {
                 own.bearing(bearing, Some(("contact.bore_diameter", bore)), true)?;
             }
             own.air_clearance(part)?;
-            own.part_in_space(drop, part)?;
+            own.part_in_space(part)?;
             own.warms(drop, part)?;
             own.mount(part)?;
             if let Some(bearing) = &part.bearing {
@@ -92,8 +92,8 @@ impl Context<'_> {
             let needed = "less than rotor.speed is needed";
             return refuse("coast_down.stop_speed", needed);
         }
-        if drop.gravity.acceleration == 0.0 {
-            let needed = "more than 0 is needed beside run.until = \"standstill\": a rotor that no weight holds on its races does not roll in them";
+        if drop.gravity.acceleration == 0.0 && drop.gravity.axial == 0.0 {
+            let needed = "more than 0 is needed beside run.until = \"standstill\", or a gravity.axial other than 0 with a bearing in space: a rotor that no weight holds on its races or faces does not roll";
             return refuse("gravity.acceleration", needed);
         }
         let bearing = part.bearing.as_ref();
@@ -102,6 +102,8 @@ impl Context<'_> {
             return refuse("bearing.lubricant_state.kind", needed);
         }
         match &part.warm {
+            // what brakes a bearing in space is measured in its motion
+            Some(_) if bearing.is_some_and(|own| own.spatial.is_some()) => Ok(()),
             Some(warm) => self.brakes(warm),
             None => {
                 let needed = "heat.network = \"on\" is needed of every bearing that the rotor coasts down on: what brakes it depends on their temperatures";

@@ -55,6 +55,8 @@ pub(crate) struct Part {
     pub viscosity: Viscosity,
     /// Pressure that dents, Pa.
     pub pressure_limit: f64,
+    /// Whether laws know its losses; else ball-by-ball intervals alone measure them.
+    pub by_laws: bool,
 }
 
 impl Part {
@@ -81,6 +83,8 @@ pub struct Built {
     pub load: Option<TorqueTables>,
     /// How it ends.
     pub end: CoastDownEnd,
+    /// Weight along the shaft that a face carries, N.
+    pub thrust: f64,
     /// Kinetic energy of what turns at its beginning, J.
     pub energy: f64,
     /// Temperatures at its beginning, °C.
@@ -227,6 +231,10 @@ pub(crate) fn hold(
 }
 
 impl Built {
+    /// Whether laws know the losses of all its bearings.
+    pub(crate) fn by_laws(&self) -> bool {
+        self.parts.iter().all(|part| part.by_laws)
+    }
     /// The next time after this one, s, at which what brakes the rotor changes its law, or a load will have changed by a twentieth of all that
     /// brakes, N m; the last one there is at the latest.
     pub(crate) fn until(&self, time: f64, speed: f64, braking: f64) -> f64 {
@@ -317,6 +325,7 @@ pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
         brakes: Vec::new(),
         load: None,
         end: run.end,
+        thrust: 0.0,
         energy: 0.5 * run.polar_inertia * run.speed * run.speed,
         warm_from: start.clone(),
         start: Start::at(0.0, run.speed.abs(), start, parts.len()),
@@ -337,9 +346,19 @@ pub(crate) fn part(warm: &Warm, name: String, planes: f64) -> Result<Part, Box<P
             "two points of one oil are needed",
         )
     })?;
-    Ok(Part {
+    let losses = losses(warm, &zone, Some(viscosity), planes)?;
+    Ok(of_losses(warm, name, (network, zone), (losses, viscosity)))
+}
+
+pub(super) fn of_losses(
+    warm: &Warm,
+    name: String,
+    (network, zone): (BearingNetwork, LoadZone),
+    (losses, viscosity): (WarmBearings, Viscosity),
+) -> Part {
+    Part {
         name,
-        losses: losses(warm, &zone, Some(viscosity), planes)?,
+        losses,
         network,
         zone,
         load_direction: 0.0,
@@ -348,7 +367,8 @@ pub(crate) fn part(warm: &Warm, name: String, planes: f64) -> Result<Part, Box<P
         viscosity,
         pressure_limit: DENTS,
         warm: warm.clone(),
-    })
+        by_laws: true,
+    }
 }
 
 fn problem(key: &str, found: String, needed: &str) -> Box<Problem> {

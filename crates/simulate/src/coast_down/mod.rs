@@ -9,6 +9,7 @@
 
 pub mod build;
 pub(crate) mod course;
+pub(crate) mod measured;
 pub(crate) mod passages;
 pub(crate) mod quantities;
 pub(crate) mod ran;

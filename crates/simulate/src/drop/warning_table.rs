@@ -49,6 +49,8 @@ problem::warnings! {
             ("{when} the rotor slides on its races{slowest}: friction makes {rubs}. It is in coast_down.load_dependent_heat{shared}.");
         WindowsScatter { deviation: "1", windows: "" } "AB2319" Uncertain, coast_down
             ("Mean power loss uncertain by {:.0} % (1 sigma, the worst of {windows} ball-by-ball intervals). Coast-down time and heat have at least this uncertainty there.", 100.0 * deviation);
+        MomentIsHeld { time: "s", speed: "rad/s", moment: "N m", held: "s", power: "1", longer: "s" } "AB2325" Uncertain, coast_down
+            ("From {time:.1} s and {speed:.0} rad/s on nothing is followed ball by ball: the moment of the bearings there, {moment:.2e} N m, is held to the standstill, for {held:.0} s. No law knows the moment of bearings in space at low speed. Until there it changed with the power {power:.2} of the speed; going on so, the rotor would turn for {longer:.0} s longer.");
         HardestInCoastDown { part: text, on: words, time: "s", speed: "rad/s", force: "N", before: "N", end: "s", load_share: "1" } "AB2323" Invalid, coast_down
             ("The contact force{on} reaches {force:.3e} N during the coast-down ({time:.1} s, {speed:.0} rad/s); the first {end:.3} s had {before:.3e} N. A ball takes {:.0} % of the load that dents a race there; cage forces of this run are those of the first {end:.3} s alone.", 100.0 * load_share);
         EndsBeforeLanding { time: "s" } "AB2324" Invalid, coast_down

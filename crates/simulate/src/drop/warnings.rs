@@ -235,13 +235,16 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
     if part.spatial().is_some_and(|own| own.groove_ends.is_none()) {
         list.push((angle, SpatialWarning::ShoulderUnknown { angle }.into()));
     }
-    let left = left_out(context.setup.given(k));
+    let left = left_out(
+        context.setup.given(k),
+        context.setup.drop().coast_down.is_some(),
+    );
     list.extend(left.map(|left| (0.0, SpatialWarning::LeavesOut { left }.into())));
     list
 }
 
-/// What a scenario leaves out of a bearing in space; none where it leaves nothing out.
-fn left_out(part: &AuxiliaryBearing) -> Option<String> {
+/// What a scenario leaves out of a bearing in space, which a rotor may coast down on; none where it leaves nothing out.
+fn left_out(part: &AuxiliaryBearing, coasts: bool) -> Option<String> {
     let heats = (part.warm.as_ref()).is_some_and(|warm| warm.heat.feedback == Feedback::Full);
     let grows = (part.bearing.as_ref()).is_some_and(|own| own.inner_track_growth() != 0.0);
     let words = [
@@ -260,6 +263,10 @@ fn left_out(part: &AuxiliaryBearing) -> Option<String> {
         (
             grows,
             "expansion of the inner ring with its speed (bearing.inner_race_growth)",
+        ),
+        (
+            !coasts,
+            "rolling resistance and drag of its lubricant, with which a coast-down is shorter",
         ),
     ];
     let left: Vec<_> = words

@@ -1,7 +1,7 @@
 //! Means of a ball-by-ball interval with their standard errors, and what they say beside the laws.
 //!
 //! ```text
-//!   r_b = P_b/P_laws(Ω_b, T)            power of the bearings in batch b over that of the laws at its speed
+//!   r_b = P_b/P_laws(Ω_b, T)            power of the bearings in batch b over that of the laws at its speed; P_b/Ω_b where no law knows one of them
 //!   SE² = s²/n (1 + ρ)/(1 − ρ)          s and ρ: standard deviation of the batches, correlation of neighbours where it is above 0
 //!   error² = SE² + ((r̄_2 − r̄_1)/2)²    means of the two halves: what still settles or drifts is as uncertain as half its change
 //!   λ = slope of ln A_b over time − q SE    growth of a motion beyond chance, q near Student's 97.5 %: A the contact force, or how far the motion is from its
@@ -37,8 +37,9 @@ pub(super) struct Bearing {
     pub returns: f64,
     /// Turns of the rotor about the race with its spin, in the batch.
     pub whirl: f64,
-    /// Largest contact force, N, and rise of the patch above the start, K.
+    /// Largest contact force in the bore and on the faces, N, and rise of the patch above the start, K.
     pub peak_force: f64,
+    pub peak_thrust: f64,
     pub peak_rise: f64,
     /// Factor of the lubricant on M0.
     pub drag_factor: f64,
@@ -61,15 +62,24 @@ pub(super) struct Batch {
 }
 
 impl Batch {
-    /// Power of the bearings with all their rows, and of their laws, W.
+    /// Power of the bearings with all their rows, and the one that it is compared with, W: that of their laws, or 1 N m where one has none.
     pub fn powers(&self) -> [f64; 2] {
+        let sum = |of: &dyn Fn(&Bearing) -> f64| -> f64 {
+            let each = self.bearings.iter();
+            each.map(|bearing| bearing.planes * of(bearing)).sum()
+        };
+        let law = |bearing: &Bearing| bearing.laws.iter().sum::<f64>();
+        let known = self.bearings.iter().all(|bearing| law(bearing) > 0.0);
+        [
+            sum(&|bearing| bearing.steady + bearing.other),
+            if known { sum(&law) } else { self.speed },
+        ]
+    }
+    /// Share of the power of its bearings that friction of rotor and race makes.
+    pub fn rubs(&self) -> f64 {
         let bearings = self.bearings.iter();
-        bearings.fold([0.0; 2], |[own, law], bearing| {
-            [
-                own + bearing.planes * (bearing.steady + bearing.other),
-                law + bearing.planes * bearing.laws.iter().sum::<f64>(),
-            ]
-        })
+        let friction: f64 = bearings.map(|own| own.planes * own.friction).sum();
+        friction / self.powers()[0]
     }
     fn ratio(&self) -> f64 {
         let [own, law] = self.powers();
@@ -148,7 +158,7 @@ impl Observation {
         }
     }
 
-    /// Power of the bearings over that of the laws.
+    /// Power of the bearings over that of the laws; over 1 N m where one has none.
     pub fn ratio(&self) -> f64 {
         self.mean.ratio()
     }
@@ -227,6 +237,7 @@ fn mean(batches: &[&Batch]) -> Batch {
             returns: mean(|own| own.returns),
             whirl: batches.iter().map(|batch| batch.bearings[k].whirl).sum(),
             peak_force: largest(|own| own.peak_force),
+            peak_thrust: largest(|own| own.peak_thrust),
             peak_rise: largest(|own| own.peak_rise),
             drag_factor: mean(|own| own.drag_factor),
             // of races over rotor: in batches in which it stands their ratio says nothing

@@ -2,7 +2,8 @@
 //!
 //! ```text
 //!   conditioned     oil, clearance, air clearance, friction and brake as they are at this instant
-//!   batch           the odd number of whole turns nearest to half a period of the pendulum motion √(g/c0) in the air clearance
+//!   batch           the odd number of whole turns nearest to half a period of the pendulum motion √(g/c0) in the air clearance; g with its part
+//!                     along the shaft, so that a vertical rotor has the time to fall through its clearance, or to slide over a face
 //!   interval        BATCHES of them
 //! ```
 //! Nothing holds the spin: an interval is a piece of the real motion. Surface layers of rotor and race carry on from interval to interval. A motion that
@@ -157,12 +158,17 @@ impl<'a> Motion<'a> {
         TAU / speed * (2.0 * (0.5 * (turns - 1.0)).round().max(0.0) + 1.0)
     }
 
-    /// Frequency of the rotor that swings like a pendulum in the widest air clearance, rad/s.
+    /// Frequency of the rotor that swings like a pendulum in the widest air clearance, rad/s; of a vertical one that of a fall as far.
     pub fn pendulum(&self) -> f64 {
         let bearings = self.context.setup.machine.constants.bearings.iter();
         let widest = bearings.map(|own| own.contact.radial_clearance);
-        let gravity = self.context.setup.drop().gravity.acceleration;
-        (gravity / widest.fold(0.0, f64::max)).sqrt()
+        (self.gravity() / widest.fold(0.0, f64::max)).sqrt()
+    }
+
+    /// Acceleration of gravity across and along the shaft, m/s².
+    pub fn gravity(&self) -> f64 {
+        let gravity = &self.context.setup.drop().gravity;
+        gravity.acceleration.hypot(gravity.axial)
     }
 
     /// One interval at the speed and the temperatures that the coast-down has reached; of what so many batches settle, no largest value is kept.
@@ -298,6 +304,9 @@ impl<'a> Motion<'a> {
         let marks: Vec<Mark> = record.bearings.iter().map(Mark::of).collect();
         for own in &mut record.bearings {
             own.contacts.clear();
+            if let Some(spatial) = &mut own.spatial {
+                spatial.axial_force = Peak::NONE;
+            }
         }
         let own = &self.machine.constants;
         let known = own.schedule.instants().first();
@@ -521,6 +530,7 @@ impl Piece<'_> {
             returns: self.returns(k),
             whirl: sign * (now.whirl_turns - mark.whirl_turns),
             peak_force: record.peak_contact_force().map_or(0.0, |peak| peak.value),
+            peak_thrust: (record.spatial.as_ref()).map_or(0.0, |own| own.axial_force.value),
             peak_rise: (record.heat.as_ref()).map_or(0.0, |heat| heat.contact.value + apart),
             drag_factor,
             spin: spin.abs() / (part.losses.ratio * self.speed),

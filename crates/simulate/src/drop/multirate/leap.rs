@@ -16,6 +16,8 @@ pub(super) const HARDER: f64 = 1.5;
 const ROLLS: f64 = 0.03;
 /// Acceleration of unbalance over that of gravity below which it lifts no rotor, a hundredfold resonance included.
 const CALM: f64 = 0.01;
+/// Speed over that at the beginning from which on a moment that no law knows is held: a four-hundredth of the energy is left.
+pub(super) const HELD: f64 = 0.05;
 /// Share of the moment which friction transmits that bearings may brake with where a rotor is left to the laws.
 pub(super) const TRANSMITS: f64 = 0.5;
 
@@ -29,13 +31,14 @@ pub(super) struct Mode {
     grows: f64,
 }
 
-/// The natural frequencies that constants tell: of rotor and mount of each bearing, and of the pendulum in the air clearance.
+/// The natural frequencies that constants tell: of rotor and mount of each bearing, and of the pendulum in the air clearance, which a vertical
+/// rotor is not.
 pub(super) fn modes(context: &Context, motion: &Motion) -> Vec<Mode> {
     let pendulum = motion.pendulum();
     let drop = context.setup.drop();
     // the weight, changed by e Ω² once a turn, excites a motion of half the speed: λ = e Ω²/(4 g) √(g/c0)
     let grows = eccentricity(motion) * pendulum / (4.0 * drop.gravity.acceleration);
-    let mut list = vec![
+    let pendulums = [
         Mode {
             frequency: pendulum,
             damping: 0.0,
@@ -47,9 +50,13 @@ pub(super) fn modes(context: &Context, motion: &Motion) -> Vec<Mode> {
             grows,
         },
     ];
+    let mut list = match drop.gravity.acceleration > 0.0 {
+        true => Vec::from(pendulums),
+        false => Vec::new(),
+    };
     for (k, own) in context.setup.machine.constants.bearings.iter().enumerate() {
         // the weight is that on one row
-        let mass = drop.weight(k) / drop.gravity.acceleration + own.outer_moving_mass();
+        let mass = drop.body.mass * drop.share(k) + own.outer_moving_mass();
         let mount = &own.mount;
         list.push(Mode {
             frequency: (mount.stiffness / mass).sqrt(),
@@ -118,8 +125,8 @@ fn eccentricity(motion: &Motion) -> f64 {
 }
 
 /// Speed below which unbalance lifts no rotor, rad/s.
-pub(super) fn calm(context: &Context, motion: &Motion) -> f64 {
-    (CALM * context.setup.drop().gravity.acceleration / eccentricity(motion)).sqrt()
+pub(super) fn calm(motion: &Motion) -> f64 {
+    (CALM * motion.gravity() / eccentricity(motion)).sqrt()
 }
 
 /// How far a leap goes towards a speed at which the machine changes, ln of both: no interval closes the last one, which has its size.
@@ -130,18 +137,19 @@ pub(super) fn towards(ahead: f64) -> f64 {
     }
 }
 
-/// Loads at rest of the bearings, N; of one that carries hardly anything, and so never rests, that of the mean bearing.
-fn at_rest(built: &Built) -> impl Iterator<Item = f64> {
+/// Loads at rest of the bearings, N; of one that carries hardly anything, and so never rests, that of the mean bearing. Weight along the shaft counts
+/// in that mean.
+pub(super) fn at_rest(built: &Built) -> impl Iterator<Item = f64> {
     let loads = || built.parts.iter().map(|part| part.warm.radial_load);
-    let mean = loads().sum::<f64>() / built.parts.len() as f64;
+    let mean = (loads().sum::<f64>() + built.thrust) / built.parts.len() as f64;
     loads().map(move |load| load.max(mean))
 }
 
-/// The largest contact force over the load at rest, of all bearings.
+/// The largest contact force over the load at rest, of all bearings; on faces over the weight along the shaft.
 pub(super) fn pressed(built: &Built, now: &Observation) -> f64 {
     let bearings = now.mean.bearings.iter().zip(at_rest(built));
     bearings
-        .map(|(own, load)| own.peak_force / load)
+        .map(|(own, load)| (own.peak_force / load).max(own.peak_thrust / load.max(built.thrust)))
         .fold(0.0, f64::max)
 }
 
@@ -153,13 +161,21 @@ pub(super) fn hardest(built: &Built, now: &Observation) -> Vec<f64> {
         .collect()
 }
 
-/// Whether a rotor rolls under its weight, and its bearings take what laws say.
+/// How far losses are from those of rolling, over them: from what laws say; where no law knows a bearing, the share of friction of rotor and races.
+pub(super) fn beside(built: &Built, now: &Observation) -> f64 {
+    match built.by_laws() {
+        true => now.ratio() - 1.0,
+        false => now.mean.rubs(),
+    }
+}
+
+/// Whether a rotor rolls under its weight, which keeps one from whirling that is not vertical.
 pub(super) fn rolls(built: &Built, now: &Observation) -> bool {
-    let rests = |(own, load): (&super::batch::Bearing, f64)| {
-        own.whirl.abs() < 1.0 && own.peak_force <= HARDER * load
-    };
-    let all = now.mean.bearings.iter().zip(at_rest(built)).all(rests);
-    all && (now.ratio() - 1.0).abs() < ROLLS
+    let mut bearings = now.mean.bearings.iter();
+    let upright = built.parts.iter().all(|part| part.warm.radial_load == 0.0);
+    bearings.all(|own| upright || own.whirl.abs() < 1.0)
+        && pressed(built, now) <= HARDER
+        && beside(built, now).abs() < ROLLS
 }
 
 /// What an observation allows.

@@ -128,16 +128,18 @@ fn between(from: &Observation, to: &Observation, predicts: bool) -> Motion {
     }
 }
 
-/// A rotor that goes on rolling to its standstill: what an interval found beside the laws fades with the speed.
+/// A rotor that goes on rolling to its standstill: what an interval found beside the laws fades with the speed. The moment of a bearing that no law
+/// knows stays as it is.
 pub(super) fn fading(built: &Built, from: &Observation) -> Motion {
     let mut at_rest = from.clone();
     at_rest.followed.speed = built.end.stop_speed.min(0.5 * from.followed.speed);
     at_rest.followed.rotor = 0.0;
-    for (own, part) in at_rest.followed.bearings.iter_mut().zip(&built.parts) {
+    let bearings = at_rest.followed.bearings.iter_mut().zip(&built.parts);
+    for (k, (own, part)) in bearings.enumerate().filter(|(_, (_, part))| part.by_laws) {
+        at_rest.balls[k] = None;
         own.factors = [1.0; 2];
         (own.beside, own.spin) = (0.0, 1.0);
         own.landing = thermal::bearing_network::Landing::rolls(part.zone.load);
     }
-    at_rest.balls.fill(None);
     between(from, &at_rest, false)
 }

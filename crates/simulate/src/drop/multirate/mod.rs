@@ -55,6 +55,7 @@ use leap::{Limits, Mode};
 use macro_step::{Ahead, fading, step};
 use results::parts;
 pub(super) use series::IntervalSeries;
+use series::Place;
 use std::sync::atomic::{AtomicBool, Ordering};
 use thermal::bearing_network::NODES;
 use thermal::coast_down::TEMPERATURE_SCALE;
@@ -87,6 +88,8 @@ struct Multirate<'a> {
     settling: usize,
     /// ln of the speeds of the next leap by its error.
     length: f64,
+    /// Speed at which the coast-down began, rad/s.
+    first: f64,
     series: IntervalSeries,
 }
 
@@ -120,9 +123,10 @@ pub(super) fn follow(
         batches: Vec::new(),
         settling: 0,
         length: leap::JUMP,
+        first: built.start.speed,
         series: IntervalSeries::default(),
     };
-    let first = built.start.speed;
+    let first = this.first;
     let mut open = None;
     let leave = loop {
         progress(1.0 - built.start.speed / first);
@@ -152,7 +156,8 @@ impl<'a> Multirate<'a> {
             return Ok(Some(Leave::End(End::Interrupted)));
         }
         let stands = built.start.speed <= built.end.stop_speed;
-        if stands || built.start.time >= built.end.longest {
+        // a leap to the end of the time is closed as any other
+        if stands || built.start.time >= built.end.longest && open.is_none() {
             if let Some(leap) = open.take() {
                 self.end_leap(built, leap)?;
             }
@@ -266,7 +271,7 @@ impl<'a> Multirate<'a> {
         let from = built.start.speed;
         let to = from * (-length).exp();
         let taken = step(built, now, Ahead::Unknown, to, self.interrupt)?;
-        if taken.end.is_some() {
+        if taken.end.is_some_and(|end| end != End::Late) {
             *built = before;
             let last = step(built, now, Ahead::Followed(now), to, self.interrupt)?;
             return Ok(self.series.took(last).map(Leave::End));
@@ -369,9 +374,11 @@ impl<'a> Multirate<'a> {
         })
     }
 
-    /// Whether laws describe the rest: the rotor rolls, unbalance lifts nothing, and friction transmits twice what the bearings brake with.
-    fn rolls_to_the_end(&self, built: &mut Built, now: &Observation) -> Result<bool, Failure> {
-        let calm = built.start.speed < leap::calm(self.context, &self.motion);
+    /// Whether laws describe the rest: the rotor rolls, unbalance lifts nothing, and friction transmits twice what the bearings brake with. Where no law
+    /// knows a bearing, its moment is held from a low speed on.
+    fn rolls_to_the_end(&mut self, built: &mut Built, now: &Observation) -> Result<bool, Failure> {
+        let mut calm = built.start.speed < leap::calm(&self.motion);
+        calm &= built.by_laws() || built.start.speed <= leap::HELD * self.first;
         if !calm || self.motion.changes_below() > 0.0 || !leap::rolls(built, now) {
             return Ok(false);
         }
@@ -382,6 +389,9 @@ impl<'a> Multirate<'a> {
         let slips = |row: &Row| {
             let mut parts = built.parts.iter().enumerate();
             parts.any(|(k, part)| {
+                if !part.by_laws {
+                    return false;
+                }
                 let moment = row.bearings[k].moment / part.losses.count;
                 moment > leap::TRANSMITS * self.transmitted(k, part, row)
             })
@@ -390,6 +400,9 @@ impl<'a> Multirate<'a> {
             return Ok(false);
         }
         built.motion = rest.motion.take();
+        if !built.by_laws() {
+            self.series.held = Some(Place::of(built));
+        }
         Ok(true)
     }
 

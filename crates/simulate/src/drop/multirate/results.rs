@@ -6,6 +6,7 @@
 use crate::bearing::races::count_coast_down;
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::coast_down::build::{Built, Part, Start, part};
+use crate::coast_down::measured::measured;
 use crate::coast_down::passages::limits;
 use crate::coast_down::ran::{Ran, ran};
 use crate::coast_down::rows::Row;
@@ -24,6 +25,7 @@ use number::Vec2;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Quantity, Stop, Value, Warning};
+use physics::viscosity::Viscosity;
 use problem::warning::Declared;
 use scenario::{AuxiliaryBearing, CoastDownEnd, Warm};
 use std::sync::atomic::AtomicBool;
@@ -135,7 +137,7 @@ fn words(context: &Context, built: &Built, series: &IntervalSeries) -> String {
     };
     let again = series.stretches.iter().filter(|stretch| !stretch.first);
     let mut list = vec![first, rolls];
-    list.extend(again.map(|stretch| stretch.words(&built.parts)));
+    list.extend(again.map(|stretch| stretch.words(built)));
     list.join(" ")
 }
 
@@ -201,10 +203,18 @@ pub(super) fn parts(setup: Setup, forces: &[(usize, Vec2<f64>)]) -> Result<Vec<P
             ..given.warm.as_deref().ok_or(NOT_FOLLOWED)?.clone()
         };
         let constants = &setup.machine.constants.bearings[k];
-        let mut one = part(&warm, name.to_string(), constants.planes).map_err(|why| why.found)?;
+        let (planes, own) = (constants.planes, constants.warm.as_deref());
+        let one = match own.filter(|_| constants.spatial().is_some()) {
+            Some(own) => {
+                let oil = own.oil.unwrap_or(Viscosity::constant(own.viscosity));
+                measured(&warm, name.to_string(), planes, oil)
+            }
+            None => part(&warm, name.to_string(), planes),
+        };
+        let mut one = one.map_err(|why| why.found)?;
         let contact = &constants.contact;
-        if let Some(warm) = &constants.warm {
-            one.network.clone_from(&warm.network);
+        if let Some(own) = own {
+            one.network.clone_from(&own.network);
         }
         one.load_direction = direction;
         one.losses.ratio = 1.0 - contact.radial_clearance / contact.bore_radius;
@@ -251,6 +261,7 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
     Ok(Built {
         parts,
         inertia,
+        thrust: drop.body.mass * drop.gravity.axial.abs(),
         energy: 0.5 * inertia * speed * speed,
         warm_from: temperatures.clone(),
         rotor: RotorDrag {
@@ -363,6 +374,7 @@ results! {
         "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless no_width(of.1) => {
             run.seen(of.0, |seen| seen.rise.value / STEEL_CHANGES)
         };
+        "peak_axial_force": number "N", PEAK, "largest force on the faces in the intervals" when of.1.contact.faces.any() => run.seen(of.0, |seen| seen.thrust.value);
         "sliding_distance": number "m", SLIDING, "distance slid by rotor and race", unless no_width(of.1) => run.seen(of.0, |seen| seen.rubbed.distance);
         "wear_depth": number "m", WEAR, "mean depth worn off" in added_up "wear depth", unless {
             not_given("contact.surface.wear_coefficient", of.1.contact.wear_coefficient).or(no_width(of.1))
@@ -377,10 +389,11 @@ results! {
 }
 
 origins! {
-    CHANGE: law "an interval in which the bearings take what laws of rolling say within 3 % and the contact force is below 1.5 of the load at rest",
+    CHANGE: law "an interval in which the bearings take what laws of rolling say within 3 % and the contact force is below 1.5 of the load at rest; with bearings in \
+          space friction of rotor and races makes less than 3 % of the losses, and weight along the shaft counts in the load",
         source "crates/simulate/src/drop/multirate/leap.rs; book/src/theory/heat.md",
         valid "within the leap before it: no more than 22 % of speed";
-    INTERVALS: law "batches of a turn, or of the pendulum motion √(g/c0) where that is slower; standard error from the batches, their correlation and their drift, \
+    INTERVALS: law "batches of a turn, or of half a period of √(g/c0) where that is slower; standard error from the batches, their correlation and their drift, \
           the largest by which a leap was taken",
         source "crates/simulate/src/drop/multirate/batch.rs; book/src/theory/heat.md",
         valid "what a motion does at a speed depends on speed, temperatures and the branch it is on";
@@ -403,7 +416,8 @@ origins! {
     WEAR: law "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient, as of the sliding distance",
         source "crates/simulate/src/drop/multirate/macro_step.rs",
         valid "as wear_depth of the drop";
-    RETURNS: law "intervals, after one in which it rolled, that lose 3 % more or less than laws say or press with 1.5 of the load at rest",
+    RETURNS: law "intervals, after one in which it rolled, that lose 3 % more or less than laws say or press with 1.5 of the load at rest; of bearings in space as \
+          coast_down.start_time",
         source "crates/simulate/src/drop/multirate/series.rs; book/src/theory/heat.md",
         valid "as coast_down.windows";
     COURSE: law "the coast-down over coast_down.over_time.time",

@@ -1,9 +1,9 @@
 //! What the intervals of a coast-down have seen.
 
-use crate::coast_down::build::{Built, Part};
+use crate::coast_down::build::Built;
 use crate::coast_down::rows::End;
 use crate::drop::multirate::batch::{Interval, Observation};
-use crate::drop::multirate::leap::{HARDER, pressed, rolls};
+use crate::drop::multirate::leap::{HARDER, at_rest, beside, pressed, rolls};
 use crate::drop::multirate::macro_step::{Rubbed, Step};
 
 /// A place on the coast-down.
@@ -42,8 +42,9 @@ impl Largest {
 /// What was seen of a bearing.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SeenBearing {
-    /// Contact force, N.
+    /// Contact force in the bore and on the faces, N.
     pub force: Largest,
+    pub thrust: Largest,
     /// Rise of the patch above the start, K.
     pub rise: Largest,
     /// Displacements of the rotor and of the mount, m.
@@ -63,10 +64,10 @@ pub(super) struct Stretch {
     /// Energy lost in it, J, and what rotor and races of each bearing have rubbed.
     pub energy: f64,
     pub rubbed: Vec<Rubbed>,
-    /// Largest contact force, N, the largest over the load at rest, and largest power of the bearings over that of the laws.
+    /// Largest contact force, N, the largest over the load at rest, and how far the losses are from those of rolling, over them.
     pub force: f64,
     pub pressed: f64,
-    pub ratio: f64,
+    pub beside: f64,
     /// Least speed of an inner race over that at which it rolls, and where.
     pub slowest: (f64, Place),
     /// Whether it begins with the coast-down.
@@ -79,19 +80,20 @@ impl Stretch {
         self.pressed > HARDER
     }
     /// In words.
-    pub fn words(&self, parts: &[Part]) -> String {
+    pub fn words(&self, built: &Built) -> String {
         let why = match self.lifts() {
-            true => {
-                let rest = parts.iter().map(|part| part.warm.radial_load);
-                format!(
-                    "contact force up to {:.0} N, {:.0} N at rest",
-                    self.force,
-                    rest.fold(0.0, f64::max)
-                )
-            }
-            false => format!(
+            true => format!(
+                "contact force up to {:.0} N, {:.0} N at rest",
+                self.force,
+                at_rest(built).fold(0.0, f64::max)
+            ),
+            false if built.by_laws() => format!(
                 "bearings take {:.1} % of what laws of rolling give",
-                100.0 * self.ratio
+                100.0 * (1.0 + self.beside)
+            ),
+            false => format!(
+                "friction of rotor and races makes up to {:.1} % of the losses",
+                100.0 * self.beside
             ),
         };
         let (from, to) = (self.from, self.to);
@@ -119,6 +121,8 @@ pub(crate) struct IntervalSeries {
     pub(super) stretches: Vec<Stretch>,
     rolls: bool,
     pub(super) bearings: Vec<SeenBearing>,
+    /// From where on the moment of bearings that no law knows was held.
+    pub(super) held: Option<Place>,
     /// First and last instant at which the rotor whirled backward, and forward, s.
     pub(super) whirled: [Option<[f64; 2]>; 2],
 }
@@ -150,7 +154,7 @@ impl IntervalSeries {
                 rubbed: vec![Rubbed::default(); built.parts.len()],
                 force: 0.0,
                 pressed: 0.0,
-                ratio: now.ratio(),
+                beside: beside(built, now),
                 slowest: (f64::INFINITY, at),
                 first: self.rolled.is_none(),
             });
@@ -159,12 +163,13 @@ impl IntervalSeries {
         let bearings = &now.mean.bearings;
         if let Some(open) = self.open() {
             open.intervals += 1;
-            if (now.ratio() - 1.0).abs() > (open.ratio - 1.0).abs() {
-                open.ratio = now.ratio();
+            let beside = beside(built, now);
+            if beside.abs() > open.beside.abs() {
+                open.beside = beside;
             }
             open.pressed = open.pressed.max(pressed(built, now));
             for own in bearings {
-                open.force = open.force.max(own.peak_force);
+                open.force = open.force.max(own.peak_force).max(own.peak_thrust);
                 if own.spin < open.slowest.0 {
                     open.slowest = (own.spin, at);
                 }
@@ -195,6 +200,7 @@ impl IntervalSeries {
         for (k, seen) in self.bearings.iter_mut().enumerate() {
             for batch in interval.batches.iter().skip(settling) {
                 seen.force.raise(batch.bearings[k].peak_force, at);
+                seen.thrust.raise(batch.bearings[k].peak_thrust, at);
                 seen.rise.raise(batch.bearings[k].peak_rise, at);
             }
             let [rotor, mount] = interval.displacements[k];

@@ -3,6 +3,7 @@
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::coast_down::build::Part;
 use crate::coast_down::ran::Ran;
+use crate::coast_down::rows::Row;
 use crate::coast_down::warnings;
 use crate::drop::context::Context;
 use crate::drop::multirate::IntervalSeries;
@@ -24,6 +25,7 @@ pub(super) fn of(context: &Context, found: &Ran, series: &IntervalSeries) -> Vec
     let mut list: Vec<Warning> = ends_early(context, series).into_iter().collect();
     list.extend(whirls(series));
     list.extend(scatters(series));
+    list.extend(holds(found, series));
     list.extend(leaves_rolling(series));
     list.extend(parts().filter_map(|(k, name)| hits_harder(context, found, series, k, name)));
     list.extend(parts().filter_map(|(k, name)| gets_hot(series, k, name)));
@@ -68,6 +70,38 @@ fn scatters(series: &IntervalSeries) -> Option<Warning> {
     let (deviation, windows) = (series.error, series.intervals as f64);
     let warning = DropWarning::WindowsScatter { deviation, windows };
     (deviation > SCATTERS).then(|| warning.into())
+}
+
+/// Steps of the logarithm of the speed in which a moment that goes on falling is integrated.
+const STEPS: i32 = 256;
+
+/// A moment that is held to the standstill: for how long, and for how much longer the rotor would turn if it went on as it did on the last third of its
+/// speed until there, M = M₁ (Ω/Ω₁)^p, beside what else brakes.
+fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
+    let place = series.held?;
+    let of_row = |row: &Row| (row.speed, row.moments[0] + row.moments[1]);
+    let mut rows = found.free.rows.iter().rev();
+    let (_, moment) = of_row(rows.find(|row| row.speed >= place.speed)?);
+    let (faster, before) = of_row(rows.find(|row| row.speed >= 1.5 * place.speed)?);
+    let power = (before / moment).ln() / (faster / place.speed).ln();
+    let held = found.free.state.time - place.time;
+    let slower = (found.built.end.stop_speed / place.speed).powf(1.0 / f64::from(STEPS));
+    let turns = (0..STEPS).map(|step| {
+        let speed = place.speed * slower.powi(step);
+        let middle = speed * slower.sqrt();
+        let beside = found.built.losses(place.time, middle).rotor;
+        let falls = moment * (middle / place.speed).powf(power);
+        found.built.inertia * speed * (1.0 - slower) / (falls + beside.moment(middle))
+    });
+    let warning = DropWarning::MomentIsHeld {
+        time: place.time,
+        speed: place.speed,
+        moment,
+        held,
+        power,
+        longer: turns.sum::<f64>() - held,
+    };
+    power.is_finite().then(|| warning.into())
 }
 
 /// A bearing that the rotor hits harder than in the drop.
