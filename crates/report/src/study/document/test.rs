@@ -65,7 +65,9 @@ impl Document<'_> {
             false => String::new(),
         };
         let limits = self.study.file.limits.iter().enumerate();
-        let here = limits.filter(|(_, limit)| limit.case.is_none() || limit.case == name);
+        // a warning of the program is nothing that a test shows
+        let shown = limits.filter(|(_, limit)| limit.forbids.is_none());
+        let here = shown.filter(|(_, limit)| limit.case.is_none() || limit.case == name);
         let abort: Vec<String> = here.map(|(k, _)| format!("R{}", k + 1)).collect();
         let items = [
             ("condition", format!("{case}: {drops}, with speed, temperature and clearance noted before each")),
@@ -74,7 +76,7 @@ impl Document<'_> {
             ("speeds", "rotor: one mark a turn or more; inner races and cages where they can be seen: section 9 tells how quickly they come to speed".to_string()),
             ("forces, heat", "force on a mount or strain of its seat where a requirement bounds it; temperature of each outer ring".to_string()),
             ("braking", "as in service; a drop from speed without brake shows the spin-down".to_string()),
-            ("stop when", format!("a bound is passed ({}), a signal leaves its band of section 9 for good, or backward whirl lasts", abort.join(", "))),
+            ("stop when", format!("a bound that is measured is passed (of {}), a signal leaves its band of section 9 for good, or backward whirl lasts", abort.join(", "))),
             ("between drops", "clearance check against section 12 (drops in a row); turn by hand; look at both landing surfaces after the first and the last drop".to_string()),
         ];
         table(
