@@ -26,6 +26,7 @@ pub(super) const CASES: &[(&str, &str)] = cases![
     "palmgren_high_speed",
     "palmgren_low_speed",
     "palmgren_paper_form",
+    "published_flywheel_spin_down",
     "published_free_rotor",
     "published_free_rotor_plain",
     "published_heavy_caged",
