@@ -95,6 +95,9 @@ pub enum Command {
         /// Folder with more cases, besides those that ship
         #[arg(long, value_name = "DIR")]
         cases: Option<PathBuf>,
+        /// Run cases too that take half a minute and more
+        #[arg(long = "long")]
+        all: bool,
         /// Print JSON instead of a table
         #[arg(long)]
         json: bool,

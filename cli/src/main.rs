@@ -124,7 +124,9 @@ fn perform(command: &Command) -> Result<Exit> {
             let written = export::export(directory, format, out.as_deref(), only)?;
             console::print(&format!("{}\n", written.display()))?;
         }
-        Command::Validate { cases, json } => return validation::perform(cases.as_deref(), *json),
+        Command::Validate { cases, all, json } => {
+            return validation::perform(cases.as_deref(), *all, *json);
+        }
         Command::Service(wish) => service::perform(wish)?,
         Command::Explain { code } => console::print(&explain(code)?)?,
         Command::Bearings { command } => bearings::perform(command)?,

@@ -7,8 +7,8 @@ use std::path::Path;
 use validate::{Report, Simulation};
 
 /// Runs the shipped cases, and those of a folder.
-pub fn perform(cases: Option<&Path>, json: bool) -> Result<Exit> {
-    let report = validate::run(cases, &Simulation)?;
+pub fn perform(cases: Option<&Path>, long: bool, json: bool) -> Result<Exit> {
+    let report = validate::run(cases, &Simulation { long })?;
     console::print(&match json {
         true => report.to_json() + "\n",
         false => report.to_text(),

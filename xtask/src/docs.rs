@@ -16,7 +16,7 @@ pub fn run(program: Option<&str>) -> Result<(), String> {
     let repository = Repository::open()?;
     let program = given_or_built(&repository, program)?;
     let output = Command::new(&program)
-        .args(["validate", "--json"])
+        .args(["validate", "--long", "--json"])
         .current_dir(&repository.root)
         .output()
         .map_err(|error| format!("{}: {error}", program.display()))?;
@@ -53,7 +53,7 @@ fn page(report: &Value, sources: &BTreeMap<String, toml::Table>) -> String {
         out,
         "What the program was compared with: published and closed-form results, each with its source and a tolerance that the source supports. \
          {} of {} comparisons in {} cases pass. A deviation is a share of the reference, or absolute where the reference is 0.\n\n\
-         The case files stand in `crates/validate/cases/`. `auxbear validate` runs them; `auxbear validate --cases DIR` adds your own.\n",
+         The case files stand in `crates/validate/cases/`. `auxbear validate` runs them, with `--long` those of half a minute as well; `--cases DIR` adds your own.\n",
         count("pass"),
         rows.len(),
         cases.len()

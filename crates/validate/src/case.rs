@@ -3,6 +3,7 @@
 //! ```toml
 //! format = "auxbear.case/1"
 //! kind = "hertz_point_contact"
+//! long = true            # optional: run only where that is asked for
 //!
 //! [source]
 //! citation = "…"
@@ -43,6 +44,8 @@ struct File {
     #[serde(rename = "format")]
     _format: String,
     kind: String,
+    #[serde(default)]
+    long: bool,
     #[serde(rename = "source")]
     _source: Source,
     inputs: BTreeMap<String, Raw>,
@@ -84,6 +87,9 @@ pub fn rows(text: &str, simulator: &dyn Simulator) -> Vec<Row> {
 
 fn read(text: &str, simulator: &dyn Simulator) -> Result<Vec<Row>, String> {
     let file: File = toml::from_str(text).map_err(|error| error.message().to_string())?;
+    if file.long && !simulator.long() {
+        return Ok(vec![Row::not_run("takes long: auxbear validate --long")]);
+    }
     let mut inputs = Inputs {
         values: file.inputs,
     };

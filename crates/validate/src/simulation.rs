@@ -23,7 +23,10 @@ use std::sync::atomic::AtomicBool;
 
 /// Runs the cases with this program's model and solver.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Simulation;
+pub struct Simulation {
+    /// Cases too that take long.
+    pub long: bool,
+}
 
 /// Tolerance of reference drops: ten times tighter than the default of a scenario.
 const TOLERANCE: f64 = 1e-5;
@@ -31,6 +34,9 @@ const TOLERANCE: f64 = 1e-5;
 const CLOSED_FORM_TOLERANCE: f64 = 1e-8;
 
 impl Simulator for Simulation {
+    fn long(&self) -> bool {
+        self.long
+    }
     fn machines(&self) -> Result<(), String> {
         Ok(())
     }

@@ -95,6 +95,10 @@ pub struct DropAnswer {
 
 /// The simulation as validation sees it; of itself it runs nothing. `Err` says why a case cannot be run: its rows become "not run".
 pub trait Simulator {
+    /// Whether cases are run that take long.
+    fn long(&self) -> bool {
+        false
+    }
     /// Whether machines may be run here.
     fn machines(&self) -> Result<(), String> {
         Err(LAWS_ONLY.into())
