@@ -70,6 +70,21 @@ fn a_horizontal_rotor_coasts_down_on_pairs_as_ball_by_ball() {
     let moments = list(&run, "coast_down.over_time.load_dependent.moment");
     let rises = moments.last().unwrap() / moments[0];
     assert!((1.05..1.2).contains(&rises), "{rises}");
+    // ball by ball its preload ends at 503.5 N
+    let preload = |name: &str| number(&run, &format!("expander_end.coast_down.{name}_preload"));
+    assert!(
+        (preload("largest") / 503.5 - 1.0).abs() < 0.02,
+        "{}",
+        preload("largest")
+    );
+    assert!(preload("smallest") > number(&run, "expander_end.smallest_preload"));
+    assert_eq!(
+        run.warnings
+            .iter()
+            .filter(|own| own.code == "AB2345")
+            .count(),
+        4
+    );
     // no law knows these bearings
     assert_eq!(number(&run, "coast_down.speed_dependent_heat"), 0.0);
 }

@@ -49,9 +49,16 @@ impl<'a> Heated<'a> {
         (self.follows().iter()).any(|follows| follows.tilts(self.bearing))
     }
     /// Whether its rows press on each other by a distance.
-    fn presses(&self) -> bool {
+    pub fn presses(&self) -> bool {
         (self.follows().iter())
             .any(|follows| follows.swells(self.bearing) && self.bearing.axial_preload > 0.0)
+    }
+    /// Smallest and largest preload at rest of rows that press on each other by a distance, N, over temperatures of their nodes, °C.
+    pub fn preloads<'b>(&self, nodes: impl Iterator<Item = &'b [f64]>) -> Option<[f64; 2]> {
+        let follows = self.follows().filter(|_| self.presses())?;
+        let each = nodes.filter_map(|nodes| follows.preload(nodes));
+        let none = [f64::INFINITY, f64::NEG_INFINITY];
+        Some(each.fold(none, |[least, most], now| [least.min(now), most.max(now)]))
     }
     /// Whether contact films keep heat.
     fn has_films(&self) -> bool {

@@ -96,6 +96,8 @@ problem::warnings! {
             ("No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their viscosities, are not given, or its law knows no viscosity.");
         PreloadChanges { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, each
             ("Unequal temperatures take the preload of the pair from {mounted:.0} N to between {least:.0} N and {most:.0} N at rest. The difference of the rings' temperatures is known within a factor of two; so is this change. Without preload a row is unloaded; a larger one loads and heats both rows without any impact.");
+        PreloadChangesInCoastDown { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, coast_down
+            ("During the coast-down unequal temperatures take the preload of the pair from {mounted:.0} N to between {least:.0} N and {most:.0} N at rest. Without preload a row is unloaded, a larger one brakes more: the intervals follow both.");
         LooseRing { time: "s", when: words, seat: text } "AB2321" Uncertain, coast_down
             ("After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from there on, and it may creep, which this run does not follow.");
     }

@@ -133,6 +133,12 @@ impl Ran<'_> {
         rows.map(move |row| &row.bearings[bearing])
     }
 
+    /// Temperatures of the nodes of a bearing on the way, °C.
+    pub fn temperatures(&self, bearing: usize) -> impl Iterator<Item = &[f64]> {
+        let rows = self.free.rows.iter();
+        rows.map(move |row| &row.temperatures[bearing * NODES.len()..][..NODES.len()])
+    }
+
     /// First time at which a quantity of the rows passes zero upwards, s.
     pub fn first(&self, of: impl Fn(&Row) -> f64) -> Option<f64> {
         let rows = &self.free.rows;

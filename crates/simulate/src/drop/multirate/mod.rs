@@ -389,7 +389,8 @@ impl<'a> Multirate<'a> {
         let slips = |row: &Row| {
             let mut parts = built.parts.iter().enumerate();
             parts.any(|(k, part)| {
-                if !part.by_laws {
+                // an upright rotor leans on no guide
+                if !part.by_laws || part.warm.radial_load == 0.0 {
                     return false;
                 }
                 let moment = row.bearings[k].moment / part.losses.count;

@@ -5,6 +5,7 @@
 
 use crate::bearing::races::count_coast_down;
 use crate::bearing::severity::STEEL_CHANGES;
+use crate::bearing::warm::Heated;
 use crate::coast_down::build::{Built, Part, Start, part};
 use crate::coast_down::measured::measured;
 use crate::coast_down::passages::limits;
@@ -296,6 +297,12 @@ fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Followed)>) -> Vec<Qu
     for (k, part) in parts.iter().enumerate() {
         list.of_part(&part.name, |list| patch(list, &(k, setup.given(k)), went));
     }
+    for (k, part) in parts.iter().enumerate() {
+        if let Some(heated) = setup.heated(k).filter(Heated::presses) {
+            let found = run.and_then(|(found, _)| heated.preloads(found.temperatures(k)));
+            list.of_part(&part.name, |list| preloads(list, &(), found.as_ref()));
+        }
+    }
     of_coast_down::name(&mut list, parts, run.map(|(found, _)| found));
     back(&mut list, &(), went);
     // those of a bearing keep its name before everything else
@@ -380,6 +387,10 @@ results! {
             not_given("contact.surface.wear_coefficient", of.1.contact.wear_coefficient).or(no_width(of.1))
         } => run.wear(of.0);
     }
+    fn preloads(setup: &(), run: &[f64; 2]) {
+        "smallest_preload": number "N", PRELOAD, "smallest preload at rest that the temperatures leave" => run[0];
+        "largest_preload": number "N", PRELOAD, "largest preload at rest that the temperatures give" => run[1];
+    }
     /// Where the rotor rolled no longer.
     fn back(setup: &(), run: &Followed) {
         "return_times": list "s", RETURNS, "begins of the stretches in which it rolls no longer" => run.again(|stretch| stretch.from.time);
@@ -416,6 +427,9 @@ origins! {
     WEAR: law "k ∫N |u| dt over the landing surface of the race, k = contact.surface.wear_coefficient, as of the sliding distance",
         source "crates/simulate/src/drop/multirate/macro_step.rs",
         valid "as wear_depth of the drop";
+    PRELOAD: law "as smallest_preload of the drop, over the course of the coast-down",
+        source "crates/model/src/spatial/ball.rs; book/src/theory/spatial.md",
+        valid "as smallest_preload";
     RETURNS: law "intervals, after one in which it rolled, that lose 3 % more or less than laws say or press with 1.5 of the load at rest; of bearings in space as \
           coast_down.start_time",
         source "crates/simulate/src/drop/multirate/series.rs; book/src/theory/heat.md",

@@ -1,6 +1,7 @@
 //! What the user should know before trusting the coast-down of a drop.
 
 use crate::bearing::severity::STEEL_CHANGES;
+use crate::bearing::warning_table::HeatWarning;
 use crate::coast_down::build::Part;
 use crate::coast_down::ran::Ran;
 use crate::coast_down::rows::Row;
@@ -29,6 +30,7 @@ pub(super) fn of(context: &Context, found: &Ran, series: &IntervalSeries) -> Vec
     list.extend(leaves_rolling(series));
     list.extend(parts().filter_map(|(k, name)| hits_harder(context, found, series, k, name)));
     list.extend(parts().filter_map(|(k, name)| gets_hot(series, k, name)));
+    list.extend(parts().filter_map(|(k, name)| Some(presses(context, found, k)?.of_part(name))));
     list.extend(slid(context, found, series));
     list.extend(warnings::of_course(found));
     list
@@ -72,6 +74,8 @@ fn scatters(series: &IntervalSeries) -> Option<Warning> {
     (deviation > SCATTERS).then(|| warning.into())
 }
 
+/// Preload over a smaller one from which on it is reported.
+const PRELOAD_CHANGES: f64 = 1.2;
 /// Steps of the logarithm of the speed in which a moment that goes on falling is integrated.
 const STEPS: i32 = 256;
 
@@ -102,6 +106,19 @@ fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
         longer: turns.sum::<f64>() - held,
     };
     power.is_finite().then(|| warning.into())
+}
+
+/// A preload that unequal temperatures change by more than a fifth.
+fn presses(context: &Context, found: &Ran, bearing: usize) -> Option<Warning> {
+    let heated = context.setup.heated(bearing)?;
+    let [least, most] = heated.preloads(found.temperatures(bearing))?;
+    let mounted = heated.bearing.axial_preload;
+    let warning = HeatWarning::PreloadChangesInCoastDown {
+        mounted,
+        least,
+        most,
+    };
+    (most.max(mounted) > PRELOAD_CHANGES * least.min(mounted)).then(|| warning.into())
 }
 
 /// A bearing that the rotor hits harder than in the drop.
