@@ -85,10 +85,14 @@ pub(crate) fn days(year: i64, month: i64, day: i64) -> i64 {
 /// million intervals are added up in double precision.
 const NEGLIGIBLE: f64 = 1e-4;
 
+/// Share of steps over two intervals below which they are rows that were lost, not the rounding of an interval that is a little longer.
+const FEW: f64 = 0.01;
+
 /// Whether times are equally spaced, found in one pass.
 ///
 /// Every time, known to its rounding, leaves a range for the interval; the times are equally spaced as long as the
-/// ranges of all have an interval in common.
+/// ranges of all have an interval in common. Where times are written no finer than the interval, a few steps of two intervals among
+/// single ones would fit an interval that is a little longer: those are lost rows, and the times stay as written.
 #[derive(Clone, Debug)]
 pub(crate) struct Spacing {
     first: f64,
@@ -97,6 +101,9 @@ pub(crate) struct Spacing {
     least: f64,
     most: f64,
     equal: bool,
+    /// Steps of more than an interval and a half, by the first step.
+    wide: u64,
+    step: f64,
     /// Index of the first time that is not after the one before, and how many there are.
     pub back: Option<(u64, u64)>,
     /// How many times are not numbers.
@@ -113,6 +120,8 @@ impl Spacing {
             least: 0.0,
             most: f64::INFINITY,
             equal: true,
+            wide: 0,
+            step: 0.0,
             back: None,
             missing: 0,
         }
@@ -138,7 +147,12 @@ impl Spacing {
         if time < self.last {
             self.equal = false;
         }
+        let step = time - self.last;
         self.last = time;
+        if k == 1 {
+            self.step = step;
+        }
+        self.wide += u64::from(step > 1.5 * self.step);
         if self.equal {
             // Both ends are rounded, each by half of the spacing; a few units in the last place for the subtraction; and
             // what a writer loses who adds the interval from time to time.
@@ -153,7 +167,8 @@ impl Spacing {
 
     /// First time and interval, in the unit of the times; none where they are not equally spaced.
     pub fn uniform(&self) -> Option<(f64, f64)> {
-        if !self.equal || self.count < 2 || self.last <= self.first {
+        let lost = self.wide > 0 && (self.wide as f64) < FEW * self.count as f64;
+        if !self.equal || lost || self.count < 2 || self.last <= self.first {
             return None;
         }
         let mean = (self.last - self.first) / (self.count - 1) as f64;
@@ -366,6 +381,18 @@ mod tests {
         times[50] += 0.01;
         assert_eq!(spacing(&times, 1e-3).uniform(), None);
         assert_eq!(spacing(&times, 1e-3).clock(4, "s"), Clock::Channel(4));
+    }
+
+    /// Times in steps of their last digit: one step of two is a row less, many are a longer interval.
+    #[test]
+    fn a_lost_row_among_coarse_times_is_no_longer_interval() {
+        let mut times: Vec<f64> = (0..500).map(|k| f64::from(k) * 1e-4).collect();
+        assert_eq!(spacing(&times, 1e-4).uniform(), Some((0.0, 1e-4)));
+        times.remove(99);
+        assert_eq!(spacing(&times, 1e-4).uniform(), None);
+        let longer = (0..500).map(|k| (f64::from(k) * 1.05).floor() * 1e-4);
+        let longer: Vec<f64> = longer.collect();
+        assert!(spacing(&longer, 1e-4).uniform().is_some());
     }
 
     #[test]
