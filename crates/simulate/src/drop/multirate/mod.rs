@@ -30,6 +30,9 @@
 //! makes a motion grow, it is followed for as long as a factor e takes, λ = e Ω²/(4 g) √(g/c0). The last leap goes to the standstill by laws, what was
 //! found beside them fades: where unbalance lifts nothing (e Ω² < g/100), the rotor rolls, and half of what friction transmits suffices.
 //!
+//! No law knows the losses of a bearing in space: its whole moment is what intervals measure, compared by itself over the speed. The last leap holds it, from a
+//! twentieth of the first speed on. An upright rotor is no pendulum; g in these times has its part along the shaft.
+//!
 //! Sources: C. W. Gear, I. G. Kevrekidis, Projective methods for stiff differential equations, SIAM J. Sci. Comput. 24 (2003) 1091; W. E, B. Engquist,
 //! The heterogeneous multiscale methods, Commun. Math. Sci. 1 (2003) 87. Derived: control of steps; book/src/theory/heat.md.
 //!
