@@ -60,7 +60,8 @@ pub fn perform(wish: &Qualify) -> Result<Exit> {
                     return;
                 };
                 *last = Instant::now();
-                console::report(&format!("qualify: {done:.0} of {all} {what}"));
+                let share = 100.0 * done / all.max(1) as f64;
+                console::report(&format!("qualify: {share:.0} % of {all} {what}"));
             },
         },
     )?;

@@ -144,7 +144,9 @@ impl Pace {
             false => String::new(),
         };
         let all = self.all;
-        console::report(&format!("study: {members:.0} of {all} members{left}"));
+        // members side by side end together: a share of the work is no count of those that had ended
+        let share = 100.0 * members / all.max(1) as f64;
+        console::report(&format!("study: {share:.0} % of {all} members{left}"));
     }
 }
 

@@ -361,8 +361,8 @@ impl Jobs {
         let count = directory.study.members();
         let tell = |what: &str, done: f64, all: usize| {
             self.change(job.id, |own| {
-                own.words = format!("{done:.0} of {all} {what}");
                 own.share = done / all.max(1) as f64;
+                own.words = format!("{:.0} % of {all} {what}", 100.0 * own.share);
             });
         };
         let options = Options::unwatched(&job.interrupt);

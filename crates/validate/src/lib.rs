@@ -258,7 +258,7 @@ mod tests {
             .iter()
             .filter(|row| row.verdict == Verdict::NotRun);
         assert!(waits.clone().all(|row| row.why == "needs a simulation"));
-        assert_eq!(waits.count(), 18);
+        assert_eq!(waits.count(), 20);
         for (name, _) in shipped::CASES {
             assert!(report.cases.iter().any(|row| row.case == *name), "{name}");
         }

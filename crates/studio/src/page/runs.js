@@ -105,7 +105,7 @@ async function runsView() {
   } });
   const results = resultColumns(rows);
   const stale = (row) => {
-    if (!row.differs) return null;
+    if (!row.differs) return row.file ? el("span", { class: "stale" }, "the file cannot be read now") : null;
     if (!row.differs.length) return el("span", { class: "fresh" }, "as the file");
     const list = row.differs.map(([path, then, now]) => `${path}: ${then} → ${now}`).join("\n");
     return el("span", { class: "stale", title: list }, `stale: ${row.differs.length === 1 ? row.differs[0][0] : `${row.differs.length} inputs`} changed`);
@@ -122,7 +122,7 @@ async function runsView() {
     el("td", {}, choose(row)),
     el("td", { class: "name" }, el("a", { href: hrefOf("run", row.directory) }, row.directory.replace(/^runs\//, "")), el("small", {}, row.broken || row.title || "")),
     el("td", {}, words(row.system || "")),
-    el("td", {}, row.complete === false ? el("span", { class: "stale", title: row.stop }, "not complete") : stale(row)),
+    el("td", {}, row.complete === false ? [el("span", { class: "stale", title: row.stop }, "not complete"), " ", (row.differs || []).length ? stale(row) : null] : stale(row)),
     ...inputs.map((path) => el("td", {}, (row.inputs || {})[path] || "")),
     ...results.map((name) => resultCell(row, name)),
     el("td", {}, limits(row)),
