@@ -1,6 +1,6 @@
 //! Runs one after the other: a queue, the progress of each, and pictures of the one that is computed.
 
-use crate::folder::Folder;
+use crate::folder::{Folder, changed};
 use auxbear::outcome::options::InterimRow;
 use auxbear::outcome::{Options, Severity};
 use auxbear::report::directory::{NewDirectory, RUNS, free_path_in};
@@ -73,6 +73,8 @@ pub struct Job {
     pub seconds: f64,
     /// Its directory below the folder, once there is one.
     pub directory: Option<String>,
+    /// When the page of results so far was written, of a study or a qualification; 0 for not yet.
+    pub page: u64,
     #[serde(skip)]
     text: String,
     #[serde(skip)]
@@ -135,6 +137,7 @@ impl Jobs {
             words: String::new(),
             seconds: 0.0,
             directory: None,
+            page: 0,
             text,
             begun: None,
             interrupt: Arc::default(),
@@ -359,9 +362,15 @@ impl Jobs {
         let place = self.shown(directory.path());
         self.change(job.id, |own| own.directory = Some(place));
         let count = directory.study.members();
+        let page = match job.task {
+            Task::Qualify => "document.html",
+            _ => "report.html",
+        };
+        let page = directory.path().join(page);
         let tell = |what: &str, done: f64, all: usize| {
             self.change(job.id, |own| {
                 own.share = done / all.max(1) as f64;
+                own.page = changed(&page);
                 own.words = format!("{:.0} % of {all} {what}", 100.0 * own.share);
             });
         };

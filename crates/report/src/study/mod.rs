@@ -39,6 +39,8 @@ const A_THREAD: usize = 64;
 const AT_FIRST: usize = 16;
 /// What takes less time than this is written with more, s.
 const SOON: f64 = 10.0;
+/// Computing time after which the results so far are written, s.
+const INTERIM: f64 = 60.0;
 /// What a study says in words: its document changes with them, and nothing that is computed.
 const WORDS: [&str; 12] = [
     "",
@@ -149,21 +151,30 @@ impl Directory {
         &self.path
     }
 
-    /// Computes what is missing, part by part, and writes what all members say. `progress` is told the members done.
+    /// Computes what is missing, part by part, and writes what all members say, every minute what those say that are there. `progress` is
+    /// told the members done.
     ///
     /// # Errors
     /// What cannot be written, and parts that cannot be read.
     pub fn run(&self, options: &Options, progress: &(dyn Fn(f64) + Sync)) -> Result<Done> {
-        self.compute(options, progress, &mut || Ok(()))?;
+        let mut since = 0.0;
+        self.compute(options, progress, &mut |seconds| {
+            since += seconds;
+            if since < INTERIM {
+                return Ok(());
+            }
+            since = 0.0;
+            self.told(options).map(|_| ())
+        })?;
         self.finish(options)
     }
 
-    /// Computes what is missing, part by part; `after` is called whenever parts were written.
+    /// Computes what is missing, part by part; `after` is called whenever parts were written, with the time that they took, s.
     fn compute(
         &self,
         options: &Options,
         progress: &(dyn Fn(f64) + Sync),
-        after: &mut dyn FnMut() -> Result<()>,
+        after: &mut dyn FnMut(f64) -> Result<()>,
     ) -> Result<()> {
         let mut lacking: Vec<usize> = Vec::new();
         for part in self.open_parts()? {
@@ -207,7 +218,7 @@ impl Directory {
                 break;
             }
             progress(done as f64);
-            after()?;
+            after(seconds)?;
         }
         Ok(())
     }

@@ -73,7 +73,7 @@ impl Directory {
         self.study.file.require_qualification()?;
         let members = self.study.members();
         let progress = |done: f64| (wish.progress)("runs", done, members);
-        self.compute(options, &progress, &mut || match (wish.due)() {
+        self.compute(options, &progress, &mut |_| match (wish.due)() {
             true => {
                 let table = table_of(&self.path, &self.study)?;
                 self.document(&table, &Besides::default(), wish, options)

@@ -39,7 +39,9 @@ function jobView(id) {
   const live = liveView();
   const head = el("div", { class: "toolbar" });
   const line = el("p", { class: "job-line" });
-  const node = el("div", { class: "job-view" }, head, line, live.node);
+  const place = el("div");
+  const node = el("div", { class: "job-view" }, head, line, live.node, place);
+  let page = 0;
   let shown = "";
   let meter = null;
   return {
@@ -68,6 +70,13 @@ function jobView(id) {
       if (meter) meter.value = job.share;
       const rest = job.state === "stopping" ? "stops at the next step and writes what was computed" : job.share >= 1 && !ends(job) ? "writes its results" : "";
       line.textContent = [job.words, ends(job) || job.seconds ? secondsText(job.seconds) : "", rest].filter(Boolean).join(" · ");
+      // what a study says so far, as often as it is written
+      if (job.page && job.page !== page && !ends(job)) {
+        page = job.page;
+        const file = job.task === "qualify" ? "document.html" : "report.html";
+        place.className = "page-place";
+        place.replaceChildren(frameOf(`/page/run?run=${encodeURIComponent(job.directory)}&file=${file}&at=${page}`, "Results so far"));
+      }
       if (["running", "stopping"].includes(job.state) || (ends(job) && !live.node.children.length)) await live.update(id);
     },
   };
