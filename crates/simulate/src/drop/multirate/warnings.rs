@@ -79,7 +79,7 @@ const PRELOAD_CHANGES: f64 = 1.2;
 /// Steps of the logarithm of the speed in which a moment that goes on falling is integrated.
 const STEPS: i32 = 256;
 
-/// A moment that is held to the standstill: for how long, and for how much longer the rotor would turn if it went on as it did on the last third of its
+/// A moment that is held to the standstill: for how long, and for how much longer the rotor would turn if it fell further as it did on the last third of its
 /// speed until there, M = M₁ (Ω/Ω₁)^p, beside what else brakes.
 fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
     let place = series.held?;
