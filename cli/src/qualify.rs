@@ -11,13 +11,9 @@ use auxbear::run::Options;
 use auxbear::scenario::StudyFile;
 use auxbear::study::Study;
 use chrono::Utc;
-use std::cell::Cell;
 use std::path::Path;
 use std::sync::Mutex;
-use std::time::{Duration, Instant};
-
-/// Time between documents while members run.
-const INTERIM: Duration = Duration::from_secs(60);
+use std::time::Instant;
 
 /// Begins a qualification or goes on with it, and writes its document.
 pub fn perform(wish: &Qualify) -> Result<Exit> {
@@ -39,18 +35,10 @@ pub fn perform(wish: &Qualify) -> Result<Exit> {
         rows: None,
     };
     let told = Mutex::new(begin);
-    let interim = Cell::new(begin);
     let qualified = directory.qualify(
         &options,
         &Wish {
             date: &Utc::now().date_naive().to_string(),
-            due: &|| {
-                let due = interim.get().elapsed() > INTERIM;
-                if due {
-                    interim.set(Instant::now());
-                }
-                due
-            },
             progress: &|what, done, all| {
                 let Some(mut last) = told
                     .lock()

@@ -132,7 +132,6 @@ impl Study {
             let directory = Directory::open(&path, study::Study::new(file)?, 0)?;
             let wish = Wish {
                 date: &date,
-                due: &|| false,
                 progress: &|_, done, all| tell(done / all.max(1) as f64),
             };
             directory.qualify(options, &wish)

@@ -51,7 +51,6 @@ fn qualified(folder: &Path, out: &str, until: &str) -> (Directory, Qualified) {
     let options = Options::unwatched(&interrupt);
     let wish = Wish {
         date: "2026-11-28",
-        due: &|| false,
         progress: &|stage, _, _| {
             interrupt.fetch_or(stage == until, Ordering::Relaxed);
         },

@@ -9,7 +9,6 @@ use auxbear::study::Study;
 use auxbear::{BuiltIn, Code, Problem, Scenario, StudyFile};
 use serde::{Deserialize, Serialize};
 use serde_json::{Value, json};
-use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,9 +17,6 @@ use std::time::{Duration, Instant};
 
 /// Most points of an orbit that is shown while it is computed; of more every second one is dropped.
 const MOST_POINTS: usize = 12_000;
-
-/// Time between documents of a qualification that is computed.
-const INTERIM: Duration = Duration::from_secs(60);
 
 /// What is done with a file.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq, Serialize)]
@@ -377,17 +373,8 @@ impl Jobs {
         let options = Options::unwatched(&job.interrupt);
         let (complete, failed, members) = match job.task {
             Task::Qualify => {
-                let written = Cell::new(Instant::now());
-                let due = || {
-                    let due = written.get().elapsed() > INTERIM;
-                    if due {
-                        written.set(Instant::now());
-                    }
-                    due
-                };
                 let wish = Wish {
                     date: &(self.date)(),
-                    due: &due,
                     progress: &tell,
                 };
                 let found = directory.qualify(&options, &wish)?;

@@ -157,24 +157,16 @@ impl Directory {
     /// # Errors
     /// What cannot be written, and parts that cannot be read.
     pub fn run(&self, options: &Options, progress: &(dyn Fn(f64) + Sync)) -> Result<Done> {
-        let mut since = 0.0;
-        self.compute(options, progress, &mut |seconds| {
-            since += seconds;
-            if since < INTERIM {
-                return Ok(());
-            }
-            since = 0.0;
-            self.told(options).map(|_| ())
-        })?;
+        self.compute(options, progress, &|| self.told(options).map(|_| ()))?;
         self.finish(options)
     }
 
-    /// Computes what is missing, part by part; `after` is called whenever parts were written, with the time that they took, s.
+    /// Computes what is missing, part by part; `interim` writes what is known so far, every minute of computing.
     fn compute(
         &self,
         options: &Options,
         progress: &(dyn Fn(f64) + Sync),
-        after: &mut dyn FnMut(f64) -> Result<()>,
+        interim: &dyn Fn() -> Result<()>,
     ) -> Result<()> {
         let mut lacking: Vec<usize> = Vec::new();
         for part in self.open_parts()? {
@@ -184,7 +176,7 @@ impl Directory {
         let threads = options.threads.map_or_else(host::threads, bounded);
         // a kill takes what is not written: members of seconds are written by few, those of milliseconds by many
         let (mut size, most) = (threads * AT_FIRST, (threads * A_THREAD).max(PART));
-        let mut done = self.there;
+        let (mut done, mut since) = (self.there, 0.0);
         let mut rest = &lacking[..];
         while !rest.is_empty() {
             let some;
@@ -218,7 +210,11 @@ impl Directory {
                 break;
             }
             progress(done as f64);
-            after(seconds)?;
+            since += seconds;
+            if since > INTERIM {
+                since = 0.0;
+                interim()?;
+            }
         }
         Ok(())
     }

@@ -31,8 +31,6 @@ const PREDICTED: &str = "predicted.csv";
 pub struct Wish<'a> {
     /// The day, as the document has it.
     pub date: &'a str,
-    /// Whether the document is to be written again while members run.
-    pub due: &'a dyn Fn() -> bool,
     /// Told what is done of what, a stage at a time.
     pub progress: &'a (dyn Fn(&str, f64, usize) + Sync),
 }
@@ -73,13 +71,10 @@ impl Directory {
         self.study.file.require_qualification()?;
         let members = self.study.members();
         let progress = |done: f64| (wish.progress)("runs", done, members);
-        self.compute(options, &progress, &mut |_| match (wish.due)() {
-            true => {
-                let table = table_of(&self.path, &self.study)?;
-                self.document(&table, &Besides::default(), wish, options)
-                    .map(|_| ())
-            }
-            false => Ok(()),
+        self.compute(options, &progress, &|| {
+            let table = table_of(&self.path, &self.study)?;
+            self.document(&table, &Besides::default(), wish, options)
+                .map(|_| ())
         })?;
         let done = self.finish(options)?;
         let table = table_of(&self.path, &self.study)?;
