@@ -101,6 +101,8 @@ fn perform(command: &Command) -> Result<Exit> {
         Command::Fmu(wish) => fmu::perform(wish)?,
         Command::Check(given) => {
             let scenario = given.read()?;
+            #[cfg(feature = "fmu")]
+            auxbear_fmu::controller::there(&scenario)?;
             run::listen(false);
             let busy = Busy::building(&scenario);
             let machine = auxbear::run::build(&scenario)?;

@@ -24,6 +24,9 @@ lognormal = 0.2
 [[limit]]
 quantity = "first_impact_force"
 most = "1 N"
+[[limit]]
+quantity = "first_impact_force"
+most = "1 GN"
 [question]
 results = ["first_impact_force", "inner_race_time_to_50_percent"]
 "#;
@@ -111,10 +114,18 @@ fn what_had_ended_when_a_study_is_interrupted_is_kept() {
         );
         there = some.answer.members;
         assert!(!some.complete);
+        let verdicts = some.answer.limits.iter().map(|limit| limit.judged.verdict);
+        // what is broken stays so; the members that have not run may break the other
+        assert_eq!(
+            verdicts.collect::<Vec<_>>(),
+            [Verdict::Fail, Verdict::Undecided]
+        );
         assert_eq!(directory(path, "cut").there, there);
     }
     assert!(there % 64 != 0, "a block is kept in part");
-    assert!(whole(path, "cut").complete);
+    let all = whole(path, "cut");
+    assert!(all.complete);
+    assert_eq!(all.answer.limits[1].judged.verdict, Verdict::Pass);
     assert_eq!(table(path, "cut"), table(path, "straight"));
     let parts = |out: &str| fs::read(path.join(out).join("members/0001.parquet")).unwrap();
     assert!(parts("cut") == parts("straight"));

@@ -61,6 +61,18 @@ fn hash(file: &str) -> Result<String, String> {
 /// # Errors
 /// Why it could not.
 pub fn checked(scenario: &Scenario) -> Result<Option<Scenario>, Box<Problem>> {
+    examined(scenario, true)
+}
+
+/// Refuses a scenario whose unit is not there, or is another one than that of its hash; the unit is not started.
+///
+/// # Errors
+/// Why it is refused.
+pub fn there(scenario: &Scenario) -> Result<(), Box<Problem>> {
+    examined(scenario, false).map(drop)
+}
+
+fn examined(scenario: &Scenario, start: bool) -> Result<Option<Scenario>, Box<Problem>> {
     let Some((magnets, unit)) = commanded(scenario) else {
         return Ok(None);
     };
@@ -70,6 +82,7 @@ pub fn checked(scenario: &Scenario) -> Result<Option<Scenario>, Box<Problem>> {
         (Ok(hash), Some(given)) if hash != *given => {
             Err(format!("another one than that of fmu_hash: {hash}"))
         }
+        (hash, _) if !start => hash,
         (hash, _) => hash.and_then(|hash| {
             let alone = Unit::start(file)?.fits(axes, axes)?;
             match alone && members > 1 {

@@ -207,13 +207,18 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
     limits.iter().map(judged).collect()
 }
 
-/// A verdict of runs that qualify no machine: what is broken stays so.
+/// A verdict of runs that qualify no machine.
 pub fn withheld(judged: Judged) -> Judged {
+    undecided(judged, format!("{WITHHELD} ({})", NO_QUALIFICATION.code))
+}
+
+/// A verdict that something speaks against: what is broken stays so.
+pub fn undecided(judged: Judged, why: String) -> Judged {
     match judged.verdict {
         Verdict::Fail => judged,
         Verdict::Pass | Verdict::Undecided => Judged {
             verdict: Verdict::Undecided,
-            why: format!("{WITHHELD} ({})", NO_QUALIFICATION.code),
+            why,
             ..judged
         },
     }

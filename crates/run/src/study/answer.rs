@@ -134,6 +134,11 @@ impl Study {
             if table.warns(NO_QUALIFICATION.code) {
                 found.judged = limits::withheld(found.judged);
             }
+            let (ran, asked) = (table.members.len(), self.members());
+            if 0 < ran && ran < asked {
+                let why = format!("{ran} of {asked} members have run");
+                found.judged = limits::undecided(found.judged, why);
+            }
             found
         });
         let sensitivity = self.shown().into_iter().filter_map(|name| {
