@@ -271,6 +271,52 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
     assert!(grown > 1.02 * plain, "{grown} {plain}");
 }
 
+/// Law, heat and lubricant of a pair, and that its rotor slows down.
+#[test]
+fn the_drag_of_the_lubricant_brakes_a_pair_and_heats_it() {
+    const GREASED: [&str; 5] = [
+        "bearing.moment.law=palmgren",
+        "bearing.moment.f0=2",
+        "bearing.moment.f1_factor=0.001",
+        "bearing.moment.f1_exponent=0.33",
+        "bearing.moment.viscosity_points=[[\"40 degC\", \"40 mm^2/s\"], [\"100 degC\", \"6 mm^2/s\"]]",
+    ];
+    let run = |greased: &[&str], more: &[&str]| {
+        let sets: Vec<String> = (greased
+            .iter()
+            .chain(&["bearing.moment.temperature=30 degC"]))
+        .take(if greased.is_empty() { 0 } else { usize::MAX })
+        .chain(&["heat.network=on", "heat.feedback=viscosity"])
+        .map(|set| format!("auxiliary_bearing.lower.{set}"))
+        .collect();
+        let all: Vec<&str> = sets
+            .iter()
+            .map(String::as_str)
+            .chain(more.iter().copied())
+            .collect();
+        ran(FLYWHEEL, &all)
+    };
+    let short = ["run.duration=60 ms"];
+    let [dry, greased] = [run(&[], &short), run(&GREASED, &short)];
+    assert!(number(&greased, "energy_residual").abs() < 1e-6);
+    assert!(number(&greased, "lower.relative_heat_residual") < 1e-9);
+    let heat = |run: &auxbear::Outcome| {
+        let by_node = run.quantity("lower.steady_moment_heat_by_node");
+        by_node.map_or(0.0, |own| match &own.value {
+            Value::List(list) => list.iter().sum(),
+            _ => 0.0,
+        })
+    };
+    assert!(heat(&greased) > 1.0, "{}", heat(&greased));
+    assert_eq!(heat(&dry), 0.0);
+    let speed = |run: &auxbear::Outcome| *run.column("rotor.speed").unwrap().values.last().unwrap();
+    assert!(speed(&greased) < speed(&dry));
+    let warned =
+        |run: &auxbear::Outcome, code: &str| run.warnings.iter().any(|own| own.code == code);
+    // the preload is no load that its law does not see
+    assert!(!warned(&greased, "AB1081"));
+}
+
 #[test]
 fn the_clearance_of_a_deep_groove_bearing_follows_its_heat() {
     let sets = [
@@ -418,6 +464,24 @@ fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
             "nothing presses a single row",
         ),
         (&["bearing.arrangement=DT"], "tandem"),
+        (
+            &[
+                "bearing.moment.law=palmgren printed",
+                "bearing.static_load_rating=5 kN",
+                "bearing.moment.f0=2",
+                "bearing.moment.f1_factor=0.001",
+                "bearing.moment.f1_exponent=0.33",
+                "bearing.moment.viscosity=20 mm^2/s",
+            ],
+            "knows no axial load",
+        ),
+        (
+            &[
+                "bearing.moment.law=palmgren",
+                "bearing.moment.axial_load=20 N",
+            ],
+            "the loads of each row along the axis are computed",
+        ),
         (&["contact.face_radius=14.9 mm"], "15.00 to "),
         (&["contact.face_radius=24 mm"], "no shoulder meets a face"),
         (&["bearing.shoulder_height=0.01 mm"], "groove ends"),

@@ -349,9 +349,17 @@ impl Unit {
             return Err(format!("holds no library for {platform}"));
         }
         // SAFETY: native code that the user named; see the page.
-        unsafe { Library::new(&path) }.map_err(|error| match error.source() {
-            Some(why) => format!("{error}: {why}"),
-            None => error.to_string(),
+        unsafe { Library::new(&path) }.map_err(|error| {
+            let why = error
+                .source()
+                .map_or(String::new(), |why| format!(": {why}"));
+            let python = match why.contains("_Py") {
+                true => {
+                    "; it was made with Python: run it by the package of this program for Python"
+                }
+                false => "",
+            };
+            format!("{error}{why}{python}")
         })
     }
 

@@ -1,6 +1,7 @@
 //! The variables of a unit: one table for its description and for its values. A value reference is the place in the table.
 
 use auxbear::outcome::Column;
+use auxbear::scenario::ResolvedValue;
 use auxbear::{Commands, Driven, Problem, Scenario, Way, build};
 
 /// The type of a variable.
@@ -53,10 +54,17 @@ pub struct Variable {
     pub meaning: String,
 }
 
-/// Whether a value of the scenario is a parameter: a number that does not follow from others, and whose change leaves all names as they are.
+/// Whether a value of the scenario is a parameter: a number that does not follow from others, that acts in this machine, and whose change
+/// leaves all names as they are.
 fn parameters(scenario: &Scenario) -> impl Iterator<Item = Variable> {
-    let values = scenario.resolved.values.iter();
-    let values = values.filter(|own| own.provenance.mark() != "derived");
+    let acts = |own: &&ResolvedValue| match own.path.split('.').next() {
+        // a unit is one member
+        Some("repeat") => false,
+        // each kind of motion has keys of its own
+        Some("base") => own.provenance.mark() != "default",
+        _ => own.provenance.mark() != "derived",
+    };
+    let values = scenario.resolved.values.iter().filter(acts);
     let numbers = values.filter(|own| own.text.is_some() && !own.is_of_kind());
     numbers.filter_map(|own| {
         Some(Variable {

@@ -130,7 +130,7 @@ impl Machine<'_> {
 
     /// What came out of the machine that was driven from outside until now, judged as a run of it.
     pub fn outcome(&self, driven: &mut Driven) -> Outcome {
-        self.judged(driven.outcome())
+        self.judged(driven.outcome_from_outside())
     }
 
     /// Beside measured channels, with what was known before, and with its limits.

@@ -17,7 +17,8 @@ const EXAMPLES: &[&str] = &[
 const STUDY_TEMPLATE: &str = include_str!("study.toml");
 /// The kind of a study, which is no system.
 pub const STUDY: &str = "study";
-const LEFT: &str = "example of the starting file";
+/// Reason of a value that a starting file has as an example.
+pub const LEFT: &str = "example of the starting file";
 /// Width of a comment line.
 const WIDTH: usize = 100;
 

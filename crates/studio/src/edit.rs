@@ -3,6 +3,7 @@
 //! The text is parsed for its places alone. A change replaces the bytes of a value, or puts in or takes away a line of its own, so that
 //! comments, order and spelling around it stay. Setting a key and taking it away again gives the bytes from before.
 
+use auxbear::scenario::template::LEFT;
 use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value as Json, json};
 use std::ops::Range;
@@ -381,6 +382,10 @@ fn within<'a>(value: &'a Value, rest: &[Step], key: Option<Places>) -> Target<'a
     let list: Option<&Array> = value.as_array();
     match (rest, inline, list) {
         ([], Some(table), _) => match table.get("value") {
+            // another value is no example
+            Some(_) if table.get("assumed").and_then(Value::as_str) == Some(LEFT) => {
+                Target::Value(value, key)
+            }
             Some(own) => Target::Value(own, key),
             None => Target::Fixed,
         },

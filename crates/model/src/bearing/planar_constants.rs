@@ -223,6 +223,7 @@ impl PlanarConstants {
             balls: self.balls,
             ball_radius: self.ball.radius,
             inner_track: self.ball.inner_track,
+            contact_cosine: 1.0,
         }
     }
     /// True where anything drags on balls or cage from the ground.

@@ -10,7 +10,8 @@
 //!                    m_o = w s/(1+s) M1 tanh(σ/ω_r)                on the ball -m_o, on the outer ring +m_o
 //!   share            w   = (Q_i + q)/(ΣQ_i + N q),  q = κ M/(N R),  κ = 0.1;  Σw = 1
 //! ```
-//! The outer ring holds the lubricant. χ_o + χ_s = 1. W = |Σ Q_i n|.  M0 is odd
+//! In space the same, see [`crate::spatial`]: there s = r cos α/R, and r/R stands for the first s of m_s and of m_i, m_o and for that
+//! beside σ. The outer ring holds the lubricant. χ_o + χ_s = 1. W = |Σ Q_i n|.  M0 is odd
 //! and w positive, so each pair opposes its motion and the heat f v_t + m_s σ + m_i (σ-Ω) + m_o σ is never negative.
 //!
 //! Why these arms. A ball that gains neither orbit nor spin needs T_i = ½[f + (m_i + m_o + m_s)/r] at the inner race, so its
@@ -53,7 +54,7 @@ const IDLE_LOAD: f64 = 0.1;
 pub struct SharedMoment {
     /// The law M(Ω, W, axial load).
     pub law: SteadyMoment<f64>,
-    /// Axial load that the law sees, N.
+    /// Axial load that the law sees besides what loads its balls along the axis, N.
     pub axial_load: f64,
     /// Share χ_o of M0 that drags on the orbit; the rest, χ_s, on the spin. ½ is assumed where nothing is known.
     pub orbit_share: f64,
@@ -69,15 +70,15 @@ impl SharedMoment {
     }
 }
 
-/// The pairs of one bearing over `R`.
+/// The pairs of one bearing, or of a row in space, over `R`.
 #[derive(Clone, Debug)]
-pub(super) struct MomentPairs<R: Real> {
+pub(crate) struct MomentPairs<R: Real> {
     /// For the moment of the whole bearing.
     law: SteadyMoment<R>,
     /// The same, for several balls at a time.
     of_ball: SteadyMoment<R::Group>,
     axial_load: R,
-    /// s/(1+s).
+    /// (r/R)/(1+s).
     rolling_arm: R,
     /// N.
     balls: R,
@@ -93,9 +94,9 @@ number::constants! {
         orbit: R,
         /// 2(1+s).
         orbit_speed: R,
-        /// 2sχ_s.
+        /// 2χ_s r/R.
         spin: R,
-        /// 2s.
+        /// 2r/R.
         spin_speed: R,
         /// 1/ω_r, s/rad.
         inverse_reference_spin: R,
@@ -104,13 +105,39 @@ number::constants! {
 
 /// Geometry that the pairs need.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Geometry {
+pub(crate) struct Geometry {
     /// Number of balls.
     pub balls: usize,
-    /// Ball radius, m.
+    /// Ball radius r, m.
     pub ball_radius: f64,
-    /// Radius of the inner track, m.
+    /// Radius R of the inner track where the balls touch it, m.
     pub inner_track: f64,
+    /// cos α of the contact angle; 1 in the plane, where r is the ball's radius there.
+    pub contact_cosine: f64,
+}
+
+impl Geometry {
+    /// s = r cos α/R: orbit speed is Ω/(2(1+s)).
+    fn ratio(&self) -> f64 {
+        self.contact_cosine * self.turns()
+    }
+    /// r/R: the ball rolls on the outer race at Ω R/(2r).
+    fn turns(&self) -> f64 {
+        self.ball_radius / self.inner_track
+    }
+}
+
+/// What loads the balls, and what their contacts resist by themselves.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Loads<R> {
+    /// Radial load W, N.
+    pub radial: R,
+    /// Axial load besides the given one, N.
+    pub axial: R,
+    /// ΣQ_i, N.
+    pub inner_sum: R,
+    /// Part of M1 that the contacts make by spin and curvature, N m.
+    pub by_contacts: R,
 }
 
 impl<R: Real> MomentPairs<R> {
@@ -133,13 +160,12 @@ impl<R: Real> MomentPairs<R> {
         let moment = |lane: usize| present(lane).expect("lanes share it");
         let arms = |lane: usize| {
             let (geometry, m) = (machine(lane).0, moment(lane));
-            let inner_track = geometry.inner_track;
-            let s = geometry.ball_radius / inner_track;
+            let turns = geometry.turns();
             Arms {
-                orbit: 2.0 * m.orbit_share / inner_track,
-                orbit_speed: 2.0 * (1.0 + s),
-                spin: 2.0 * s * (1.0 - m.orbit_share),
-                spin_speed: 2.0 * s,
+                orbit: 2.0 * m.orbit_share / geometry.inner_track,
+                orbit_speed: 2.0 * (1.0 + geometry.ratio()),
+                spin: 2.0 * turns * (1.0 - m.orbit_share),
+                spin_speed: 2.0 * turns,
                 inverse_reference_spin: 1.0 / m.reference_spin,
             }
         };
@@ -151,8 +177,8 @@ impl<R: Real> MomentPairs<R> {
             of_ball: super::ball::gather_group::<R, _>(&|lane| &moment(lane).law),
             axial_load: R::from_lanes(|lane| moment(lane).axial_load),
             rolling_arm: R::from_lanes(|lane| {
-                let s = machine(lane).0.ball_radius / machine(lane).0.inner_track;
-                s / (1.0 + s)
+                let geometry = machine(lane).0;
+                geometry.turns() / (1.0 + geometry.ratio())
             }),
             balls: R::from_lanes(|lane| machine(lane).0.balls as f64),
             idle_load: R::from_lanes(|lane| {
@@ -169,12 +195,14 @@ impl<R: Real> MomentPairs<R> {
         })
     }
 
-    /// What the balls share at this speed of the inner race against the outer, these loads, radial W, ΣQ_i, and a drag
-    /// factor D of the lubricant.
+    /// What the balls share at this speed of the inner race against the outer, these loads, and a drag factor D of the lubricant.
     #[inline(always)]
-    pub fn share(&self, speed: R, load: R, inner_sum: R, drag_factor: R) -> PairsOfBall<'_, R> {
+    pub fn share(&self, speed: R, loads: &Loads<R>, drag_factor: R) -> PairsOfBall<'_, R> {
         let limit = R::splat(LEAST_SPEED);
-        let parts = (self.law).parts(speed.abs().max(limit), load, self.axial_load);
+        let (load, inner_sum) = (loads.radial, loads.inner_sum);
+        let axial_load = self.axial_load + loads.axial;
+        let mut parts = (self.law).parts(speed.abs().max(limit), load, axial_load);
+        parts.load_dependent = (parts.load_dependent - loads.by_contacts).max(R::zero());
         let idle_load = self.idle_load * parts.sum();
         // without load and moment nothing is shared: the quotient is of zeros
         let per_load = (inner_sum + self.balls * idle_load)
@@ -190,7 +218,7 @@ impl<R: Real> MomentPairs<R> {
                 ..self.arms
             },
             load: load.grouped(),
-            axial_load: self.axial_load.grouped(),
+            axial_load: axial_load.grouped(),
             per_load: per_load.grouped(),
             idle_share: (idle_load * per_load).grouped(),
             rolling: (self.rolling_arm * parts.load_dependent).grouped(),
@@ -201,7 +229,7 @@ impl<R: Real> MomentPairs<R> {
 
 /// Where a ball stands between its races; speeds against the outer ring.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BallPlace<R> {
+pub(crate) struct BallPlace<R> {
     /// Speed of its centre past the outer ring along t, m/s.
     pub past: R,
     /// 1/(distance from the outer race's centre), 1/m.
@@ -216,7 +244,7 @@ pub(super) struct BallPlace<R> {
 
 /// The pairs of one ball, each against the motion.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct BallPairs<R> {
+pub(crate) struct BallPairs<R> {
     /// Drag f against its motion along t, on the outer ring the opposite, N.
     pub orbit_drag: R,
     /// Couple against its rotation on the inner race, on the race the opposite, N m.
@@ -229,7 +257,7 @@ pub(super) struct BallPairs<R> {
 
 /// The steady moment at one instant, ready for the balls.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct PairsOfBall<'a, R: Real> {
+pub(crate) struct PairsOfBall<'a, R: Real> {
     law: &'a SteadyMoment<R::Group>,
     /// With the drag factor.
     arms: Arms<R::Group>,
@@ -337,7 +365,13 @@ impl<R: Real> Vectorized for Share<'_, R> {
         }
         let [x, y, inner_sum] = sums.total();
         let load = Vec2::new(x, y).length_squared().sqrt() + self.held_load;
-        let shared = (self.pairs).share(speed, load, inner_sum, self.drag_factor);
+        let loads = Loads {
+            radial: load,
+            axial: R::zero(),
+            inner_sum,
+            by_contacts: R::zero(),
+        };
+        let shared = (self.pairs).share(speed, &loads, self.drag_factor);
 
         let mut sums = BallSums::<R, 3>::new(n);
         let mut from = 0;

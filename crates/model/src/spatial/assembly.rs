@@ -247,8 +247,8 @@ pub(super) struct Bodies<R> {
     pub land_force: R,
     /// Along the axis on the outer rings that slide, by their rows and by the spring, N, and their speed beside the others, m/s.
     sliding: [R; 3],
-    /// Powers of the accounts, W.
-    pub power: [R; LEDGER.len()],
+    /// Powers of the accounts, W, and of the steady moment, which is a drag there.
+    pub power: [R; MOMENT + 1],
 }
 
 #[inline(always)]
@@ -273,7 +273,7 @@ impl<R: Real> Bodies<R> {
             growth_impulse: R::zero(),
             land_force: R::zero(),
             sliding: [R::zero(); 3],
-            power: [R::zero(); LEDGER.len()],
+            power: [R::zero(); MOMENT + 1],
         }
     }
     /// What a rotor that has landed does to the inner ring, and the heats.
@@ -350,12 +350,7 @@ impl<R: Real> Bodies<R> {
 impl<R: Real> SpatialLand<R> {
     #[inline(always)]
     fn station(&self, k: usize) -> R {
-        self.middle
-            + if k == 0 {
-                -self.half_width
-            } else {
-                self.half_width
-            }
+        self.middle + [-self.half_width, self.half_width][k]
     }
 }
 
@@ -366,6 +361,7 @@ pub(super) const AMB: usize = 10;
 const LAND: usize = 11;
 const FACE: usize = 13;
 const SETTLING: usize = 15;
+pub(super) const MOMENT: usize = LEDGER.len();
 
 /// States of outer rings that slide: how far, m, and how fast, m/s.
 pub(super) const SLIDING: usize = 2;
@@ -394,7 +390,8 @@ impl<R: Real> Vectorized for Rates<'_, R> {
             &mut [],
         );
         let probe = assembly.move_rings(&mut bodies, state, rate);
-        rate[end..end + LEDGER.len()].copy_from_slice(&bodies.power);
+        bodies.power[DRAG] += bodies.power[MOMENT];
+        rate[end..end + MOMENT].copy_from_slice(&bodies.power[..MOMENT]);
         probe
     }
 }
@@ -466,7 +463,8 @@ impl<R: Real> Assembly<R> {
                 balls,
             };
             before += row.balls;
-            let reaction = row.react(&around, &state[own.clone()], &mut rate[own], into);
+            let lists = (&state[own.clone()], &mut rate[own]);
+            let reaction = row.react([&bodies.inner, &bodies.outer], &around, lists, into);
             let own = &mut rate[place..place + BODY_STATES];
             let mut by_others = bodies.on_outer.force.z;
             bodies.move_cage(row, &cage, reaction.on_cage, (self.gravity, own));
@@ -482,10 +480,11 @@ impl<R: Real> Assembly<R> {
             bodies.external += reaction.external;
             bodies.growth_impulse += reaction.growth_impulse;
             let mut k = 0;
-            while k < reaction.heats.len() {
+            while k < SUPPORT {
                 bodies.power[k] += reaction.heats[k];
                 k += 1;
             }
+            bodies.power[MOMENT] += reaction.heats[SUPPORT];
         }
         bodies.outer = fixed;
     }

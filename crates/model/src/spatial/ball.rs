@@ -11,6 +11,7 @@
 
 use super::pocket::SpatialPocket;
 use super::race::{BallInSpace, RaceGroove};
+use crate::bearing::steady_moment::Geometry;
 use number::{Real, Vec3, constants};
 use physics::load_zone::joint_stiffness;
 
@@ -99,6 +100,21 @@ impl SpatialBall<f64> {
             self.outer.centre_radius - self.inner.centre_radius,
             self.outer.place - self.inner.place,
         ]
+    }
+    /// As one of so many it rolls between concentric rings.
+    pub(super) fn rolls(&self, balls: usize) -> Geometry {
+        let [radial, axial] = self.groove_distance();
+        let distance = radial.hypot(axial);
+        let contact_cosine = match distance > 0.0 {
+            true => radial.abs() / distance,
+            false => 1.0,
+        };
+        Geometry {
+            balls,
+            ball_radius: self.radius,
+            inner_track: self.between_rings()[0] - self.radius * contact_cosine,
+            contact_cosine,
+        }
     }
     /// Where it rests between concentric rings: radius and place along the axis, m. Pressed by both races alike, or in the middle of
     /// the gap.

@@ -7,6 +7,7 @@
 //! | [`race`] | its contact in the groove of a ring, traction as a force and a couple |
 //! | [`pocket`] | its pocket in the cage |
 //! | [`row`] | a row of balls with its cage |
+//! | `steady_moment` | the steady friction moment that the balls of a row share |
 //! | [`bore`], [`face`] | rotor and inner ring, cage and land; shoulder and face |
 //! | [`mount`] | the outer ring in its mount |
 //! | [`landing`] | where a rotor lands on an inner ring |
@@ -47,6 +48,7 @@ pub mod rotor;
 pub mod row;
 pub mod spring;
 pub mod statics;
+pub(crate) mod steady_moment;
 
 pub use arrangement::{RowGeometry, preload_at_rest};
 pub use assembly::{Assembly, AssemblyConstants, AssemblyProbe, InnerRing, LEDGER, OuterRing};

@@ -8,9 +8,9 @@
 //! Frame: origin at the datum of the bearing, axes of the machine. The rotor's node comes in as a body, the wrench on it goes out, about
 //! the point C of its axis.
 //!
-//! Does not model: a steady friction moment, mounts on housings that move.
+//! Does not model: mounts on housings that move.
 
-use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, OuterRing};
+use super::assembly::{AMB, Assembly, AssemblyConstants, Bodies, InnerRing, MOMENT, OuterRing};
 use super::ball::BALL_STATES;
 use super::face_heat::FaceSurfaces;
 use super::landing::{Landing, LandingConstants, LandingReaction};
@@ -181,7 +181,8 @@ impl SpatialBearing {
                 };
                 self.rows.iter().any(lands)
             }
-            "ball_ball_damping" | "ball_ball_friction" | "inlet_rolling" | "steady_moment" => false,
+            "steady_moment" => self.rows.iter().any(|row| row.moment.is_some()),
+            "ball_ball_damping" | "ball_ball_friction" | "inlet_rolling" => false,
             _ => true,
         }
     }
@@ -341,6 +342,7 @@ impl<R: Real> Spatial<R> {
         let power = &bodies.power;
         let mut heats = [zero; HEATS];
         heats[..7].copy_from_slice(&power[..7]);
+        heats[7] = power[MOMENT];
         heats[8..10].copy_from_slice(&power[AMB + 1..AMB + 3]);
         heats[HEATS - 3] = power[7] + heat;
         heats[HEATS - 2] = landed.bore.heats[0] + landed.face.heats[0];

@@ -119,7 +119,7 @@ impl<R: Real> Triad<R> {
 #[derive(Clone, Copy, Debug)]
 pub struct Touch<R> {
     /// From the ring's centre to the ball's, m.
-    from_ring: Vec3<R>,
+    pub(super) from_ring: Vec3<R>,
     /// Its directions.
     pub triad: Triad<R>,
     /// δ, m.
@@ -224,6 +224,28 @@ impl<R: Real> Touch<R> {
             moment: -(self.from_ring.cross(force) + moment),
         };
         [on_ball, on_ring]
+    }
+    /// Load on the race, in the frame, N.
+    #[inline(always)]
+    pub(super) fn push(&self) -> Vec3<R> {
+        let [n_e, n_a] = self.triad.normal;
+        (self.triad.outward * n_e + self.triad.axis * n_a) * self.load.force
+    }
+    /// t_x: across rolling, along which the ball turns as it rolls.
+    #[inline(always)]
+    pub(super) fn across(&self) -> Vec3<R> {
+        let [n_e, n_a] = self.triad.normal;
+        self.triad.outward * n_a - self.triad.axis * n_e
+    }
+    /// t_y: along rolling.
+    #[inline(always)]
+    pub(super) fn along(&self) -> Vec3<R> {
+        self.triad.rolling
+    }
+    /// Speed of the ball's centre along t_y past the ring, which reaches there, m/s.
+    #[inline(always)]
+    pub(super) fn past(&self) -> R {
+        -(self.slip.y + self.arm * self.turning.x)
     }
     #[inline(always)]
     fn at_node(&self, node: &ContactNode<R>) -> NodeSlip<R> {

@@ -8,9 +8,11 @@ use super::ball::{BALL_STATES, BallState, SpatialBall, Turned};
 use super::pocket::{CageMotion, InPocket, PocketPlace};
 use super::race::{BallInSpace, RingMotion, Touch, Traction as ContactTraction, traction};
 use super::rigid_body::{Inertia, RigidBody, SpatialWrench};
+use super::steady_moment::Resist;
 use crate::bearing::ball::gather_group;
 use crate::bearing::ball_sums::BallSums;
-use crate::bearing::seat;
+use crate::bearing::steady_moment::MomentPairs;
+use crate::bearing::{SharedMoment, seat};
 use crate::contact::JournalContact;
 use number::{Gather, Real, Vectorized, constants};
 use physics::contact_nodes::ContactNode;
@@ -27,6 +29,8 @@ pub struct RowConstants {
     pub nodes: Vec<ContactNode<f64>>,
     /// Traction in the contacts.
     pub traction: Traction<f64>,
+    /// The steady friction moment that its balls share; none of the reference files.
+    pub moment: Option<SharedMoment>,
     /// The cage.
     pub cage: CageConstants,
 }
@@ -136,6 +140,7 @@ pub(super) struct Row<R: Real> {
     pub ball: SpatialBall<R::Group>,
     nodes: Vec<ContactNode<R::Group>>,
     traction: Traction<R::Group>,
+    moment: Option<MomentPairs<R>>,
     pub cage: Inertia<R>,
     pub cage_drag: R,
     pub guide: CageGuide<R>,
@@ -150,8 +155,8 @@ pub(super) struct RowReaction<R> {
     pub on_outer: SpatialWrench<R>,
     /// By the pockets.
     pub on_cage: SpatialWrench<R>,
-    /// Damping inner and outer, slip and spin inner and outer, drag, damping and friction of pockets, W.
-    pub heats: [R; 7],
+    /// Damping inner and outer, slip and spin inner and outer, drag, damping and friction of pockets, steady moment, W.
+    pub heats: [R; 8],
     /// Moment of weight and drag about the axis through the origin, N m.
     pub external: R,
     /// ∂V/∂ω of the inner ring that grows, J s.
@@ -247,6 +252,10 @@ impl<R: Real> Row<R> {
             ball: gather_group::<R, _>(&|lane| &machine(lane).ball),
             nodes: (0..count).map(node).collect(),
             traction: gather_group::<R, _>(&|lane| &machine(lane).traction),
+            moment: MomentPairs::gather(&|lane| {
+                let row = machine(lane);
+                (row.ball.rolls(row.balls), row.moment.as_ref())
+            }),
             cage: Gather::gather(&|lane| &machine(lane).cage.inertia),
             cage_drag: Gather::<R>::gather(&|lane| &machine(lane).cage.drag),
             guide: Gather::gather(&|lane| &machine(lane).cage.guide),
@@ -256,15 +265,41 @@ impl<R: Real> Row<R> {
     pub(super) fn is_tied(&self) -> bool {
         matches!(self.guide, CageGuide::Tied)
     }
-    /// Writes the rates of the balls, whose states are these lists.
+    /// Writes the rates of the balls, whose states are these lists, between inner and outer ring.
     #[inline(always)]
     pub(super) fn react(
         &self,
+        [inner, outer]: [&RigidBody<R>; 2],
         around: &Around<R::Group>,
-        state: &[R],
-        rate: &mut [R],
+        (state, rate): (&[R], &mut [R]),
         detail: Detail<'_, R>,
     ) -> RowReaction<R> {
+        let (mut reaction, carried) = self.sum(around, (state, &mut *rate), detail);
+        if let Some(pairs) = &self.moment {
+            let speed = (inner.spin - outer.spin).dot(outer.axis);
+            let resisted = R::vectorized(Resist {
+                ball: &self.ball,
+                balls: self.balls,
+                pairs,
+                around,
+                turns: (speed, outer.axis),
+                carried: &carried,
+                state,
+                rate,
+            });
+            reaction.on_inner.moment += resisted.on_inner;
+            reaction.on_outer.add(resisted.on_outer);
+            reaction.heats[7] = resisted.heat;
+        }
+        reaction
+    }
+    #[inline(always)]
+    fn sum(
+        &self,
+        around: &Around<R::Group>,
+        (state, rate): (&[R], &mut [R]),
+        detail: Detail<'_, R>,
+    ) -> (RowReaction<R>, [R; CARRIED]) {
         // the law is chosen once a call, not once a ball
         match &self.traction {
             Traction::Tanh(law) => self.by(law, around, (state, rate), detail),
@@ -281,7 +316,7 @@ impl<R: Real> Row<R> {
         around: &Around<R::Group>,
         (state, rate): (&[R], &mut [R]),
         detail: Detail<'_, R>,
-    ) -> RowReaction<R> {
+    ) -> (RowReaction<R>, [R; CARRIED]) {
         R::vectorized(Sum {
             row: self,
             law,
@@ -306,6 +341,10 @@ impl<R: Real> Row<R> {
     }
 }
 
+/// What a steady moment must know of a row: the loads at its inner race along x, y, z and their sum, N, and the heat of spin and curvature
+/// in its contacts, W.
+pub(super) const CARRIED: usize = 5;
+
 /// The pass over the balls.
 struct Sum<'a, R: Real, L> {
     row: &'a Row<R>,
@@ -317,9 +356,9 @@ struct Sum<'a, R: Real, L> {
 }
 
 impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
-    type Output = RowReaction<R>;
+    type Output = (RowReaction<R>, [R; CARRIED]);
     #[inline(always)]
-    fn run(mut self) -> RowReaction<R> {
+    fn run(mut self) -> Self::Output {
         let Sum { row, around, .. } = self;
         let (n, law) = (row.balls, &row.ball);
         let states = lists(self.state, 0, n);
@@ -329,6 +368,7 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
         let (mut on_inner, mut on_outer) = (BallSums::<R, 6>::new(n), BallSums::<R, 6>::new(n));
         let (mut on_cage, mut heats) = (BallSums::<R, 6>::new(n), BallSums::<R, 7>::new(n));
         let mut pocket_heats = BallSums::<R, 2>::new(n);
+        let mut carried = BallSums::<R, CARRIED>::new(n);
         let ring = &around.inner;
         let growing = <R::Group as Real>::splat(2.0) * law.inner_growth * ring.spin.dot(ring.axis);
         let mut from = 0;
@@ -366,6 +406,11 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
             while k < BALL_STATES {
                 R::store_group(rates[k], &mut self.rate[k * n..(k + 1) * n], from);
                 k += 1;
+            }
+            if row.moment.is_some() {
+                let (push, load) = (t_i.push(), t_i.load.force);
+                let turned = f_i.couple.dot(t_i.turning) + f_o.couple.dot(t_o.turning);
+                carried.add(from, &[push.x, push.y, push.z, load, turned]);
             }
             on_inner.add(from, &inner.to_array());
             on_outer.add(from, &outer.to_array());
@@ -407,13 +452,14 @@ impl<R: Real, L: TractionLaw<R::Group>> Vectorized for Sum<'_, R, L> {
         }
         let [d_i, d_o, s_i, s_o, drag, external, growth_impulse] = heats.total();
         let [damping, friction] = pocket_heats.total();
-        RowReaction {
+        let reaction = RowReaction {
             on_inner: SpatialWrench::from_array(on_inner.total()),
             on_outer: SpatialWrench::from_array(on_outer.total()),
             on_cage: SpatialWrench::from_array(on_cage.total()),
-            heats: [d_i, d_o, s_i, s_o, drag, damping, friction],
+            heats: [d_i, d_o, s_i, s_o, drag, damping, friction, R::zero()],
             external,
             growth_impulse,
-        }
+        };
+        (reaction, carried.total())
     }
 }

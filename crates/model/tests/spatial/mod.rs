@@ -8,4 +8,5 @@ mod planar_limit;
 mod setup;
 mod springs;
 mod statics;
+mod steady_moment;
 mod turning;

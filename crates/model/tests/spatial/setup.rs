@@ -1,5 +1,6 @@
 //! Assemblies of every kind, and random states in which all contacts press.
 
+use model::bearing::{SharedMoment, SteadyMoment};
 use model::contact::JournalContact;
 use model::spatial::SpatialLevitation;
 use model::spatial::ball::BALL_STATES;
@@ -17,6 +18,7 @@ use physics::contact_nodes::{ContactNode, legendre, matched, middle};
 use physics::groove::{axis_over_root_approach, contact_surface_radius};
 use physics::hertz::{BallRace, PointContact, Race};
 use physics::materials::{BEARING_STEEL, ball_mass, contact_modulus};
+use physics::palmgren::{Palmgren, PalmgrenCombined};
 use physics::traction::{AlgebraicTraction, FourParameterTraction, TanhTraction, Traction};
 
 /// Numbers between -1 and 1, the same ones in every run.
@@ -135,6 +137,7 @@ fn row(
         },
         nodes: nodes.to_vec(),
         traction,
+        moment: None,
         cage: CageConstants {
             inertia: Inertia {
                 mass: 5e-3,
@@ -163,6 +166,30 @@ fn surfaces(exponent: f64, stiffness: f64) -> JournalContact<f64> {
         friction: 0.15,
         inverse_reference_speed: 20.0,
     }
+}
+
+/// The steady moment of a row in grease.
+pub fn greased() -> Option<SharedMoment> {
+    Some(SharedMoment {
+        law: SteadyMoment::PalmgrenCombined(PalmgrenCombined {
+            law: Palmgren {
+                viscous_factor: 2.0,
+                viscosity: 5e-6,
+                pitch_diameter: PITCH,
+                load_factor: 5e-3,
+                load_exponent: 0.33,
+                static_load_rating: 4e3,
+                preload: 0.0,
+            },
+            radial_factor: -0.1,
+            axial_factor: 1.4,
+            static_radial_factor: 0.5,
+            static_axial_factor: 0.46,
+        }),
+        axial_load: 0.0,
+        orbit_share: 0.3,
+        reference_spin: 1.0,
+    })
 }
 
 /// An assembly without a rotor whose mount, drags and drives are nothing.
@@ -310,7 +337,11 @@ pub fn every_kind() -> Vec<AssemblyConstants> {
         for (j, law) in [TANH, FOUR, ALGEBRAIC].into_iter().enumerate() {
             let guides = [Guide::Outer, Guide::Inner, Guide::Balls];
             let guide = guides[(i + j) % 3];
-            all.push(bearing(signs, law, &sets[(i + 2 * j) % 4], guide));
+            let mut one = bearing(signs, law, &sets[(i + 2 * j) % 4], guide);
+            if j == 1 {
+                one.rows.iter_mut().for_each(|row| row.moment = greased());
+            }
+            all.push(one);
         }
     }
     all

@@ -278,7 +278,7 @@ impl Context<'_> {
             ("bearing.drag.spin", bearing.drag.spin),
             ("bearing.drag.cage", bearing.drag.cage),
         ];
-        let shared = bearing.fidelity == Fidelity::Planar && bearing.moment != Moment::None;
+        let shared = bearing.fidelity != Fidelity::Rolling && bearing.moment != Moment::None;
         match drags.into_iter().find(|(_, drag)| shared && *drag != 0.0) {
             Some((path, _)) => self.refuse_value(
                 Code::Conflict,

@@ -40,10 +40,8 @@ impl Context<'_> {
         if matches!(bearing.separation, Separation::FullComplement(_)) {
             return refuse("bearing.separation", &format!("\"cage\" {kept}"));
         }
-        if bearing.moment != Moment::None {
-            let needed = format!(
-                "\"none\" {kept}: slip and spin in its contacts are what resists, and no moment is shared"
-            );
+        if matches!(bearing.moment, Moment::Palmgren { printed: true, .. }) {
+            let needed = format!("\"palmgren\" {kept}: the printed form knows no axial load");
             return refuse("bearing.moment.law", &needed);
         }
         if bearing.lubricant_state.is_some() {

@@ -176,7 +176,9 @@ impl Values {
     /// groove bearing takes under axial load, which no catalogue tells. Constants for other angles are refused.
     fn contact_angle(&mut self, constants: Option<[f64; 2]>, of: &str) -> Done {
         self.refuse_angle(ANGLE, constants, of)?;
-        let loaded = self.number(AXIAL_LOAD).is_some_and(|load| load != 0.0);
+        // in space each row has an axial load of its own
+        let in_space = self.chosen(FIDELITY) == Some(Modelled::Spatial);
+        let loaded = in_space || self.number(AXIAL_LOAD).is_some_and(|load| load != 0.0);
         // what the file says of the bearing counts before its catalogue
         let catalogued = self.mark(CONTACT_ANGLE) == "catalogue";
         if let Some(angle) = self.number(ANGLE)

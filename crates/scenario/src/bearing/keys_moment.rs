@@ -11,7 +11,7 @@ use problem::words::Words;
 
 #[rustfmt::skip]
 pub(crate) const SECTIONS: &[Section] = &[
-    Section::new("bearing.moment", "Steady friction moment of the bearing: what its inner race feels against a steady rotation.", crate::system::WITH_MOMENT),
+    Section::new("bearing.moment", "Steady friction moment of the bearing: what its inner race feels against a steady rotation; in space that of one row.", crate::system::WITH_MOMENT),
     Section {
         path: "bearing.acceleration_loss",
         doc: "Friction F of the balls in their pockets while the race accelerates, as a sum over the balls: it resists both races, with the sign of the rotation, whatever the sign of the acceleration.",
@@ -26,13 +26,18 @@ const fn law(values: &'static [&'static str]) -> Condition {
 const ANY: &[&str] = &["palmgren", "palmgren printed", "skf", "measured"];
 const PALMGREN: &[Condition] = &[law(&["palmgren", "palmgren printed"])];
 const SKF: &[Condition] = &[law(&["skf"])];
-const AXIAL: &[Condition] = &[law(&["palmgren", "skf"])];
+const BY_ANGLE: &[Condition] = &[law(&["palmgren", "skf"])];
+const AXIAL: &[Condition] = &[
+    law(&["palmgren", "skf"]),
+    Condition::new("bearing.fidelity", &["planar", "rolling"])
+        .because("in space the loads of each row along the axis are computed"),
+];
 const MEASURED: &[Condition] = &[law(&["measured"])];
 const LUBRICATED: &[Condition] = &[law(&["palmgren", "palmgren printed", "skf"])];
 /// Balls that share the moment.
 const SHARED: &[Condition] = &[
     law(ANY),
-    Condition::new("bearing.fidelity", &["planar"])
+    Condition::new("bearing.fidelity", &["planar", "spatial"])
         .because("where the balls roll the moment acts on the races as a whole"),
 ];
 
@@ -73,7 +78,7 @@ pub(crate) const KEYS: &[Key] = &[
     Key::new("bearing.moment.axial_load", Kind::Quantity("N"), "400 N", "Axial load that the law sees, constant; its sign has no effect. It reaches the friction moment alone: motion is computed in the plane. Where it is not given an axial preload of the bearing counts.")
         .default("0 N", "a purely radial load").when(AXIAL),
     Key::new("bearing.moment.contact_angle", Kind::Quantity("rad"), "25 deg", "Contact angle under load: it chooses P0 of Palmgren's law, and P1 in the form of Timken. Constants of tables hold for one angle; other bearings are refused.")
-        .positive().optional("that of the bearing; else the middle of those that the constants are for; a deep groove bearing needs none, or is taken to have 16.7 deg").when(AXIAL),
+        .positive().optional("that of the bearing; else the middle of those that the constants are for; a deep groove bearing needs none, or is taken to have 16.7 deg").when(BY_ANGLE),
     Key::new("bearing.moment.equivalent_load", Kind::Word(EquivalentLoad::WORDS), "schaeffler", "Form of the load P1 = max(F_r, X1 F_r + Y1 F_a) of Palmgren's M1, which belongs to f1: schaeffler, by the type of the bearing; timken, 0.9 cot(contact_angle) F_a - 0.1 F_r for all, which is that of Harris too.")
         .derived("the source of f1; timken where f1 is given by hand").when(&[law(&["palmgren"])]),
     Key::new("bearing.moment.bore_diameter", Kind::Quantity("m"), "25 mm", "Bore d of the bearing itself.").positive().catalogued().when(SKF),

@@ -354,6 +354,7 @@ impl Bearing {
             pitch_diameter: self.pitch_diameter,
             static_load_rating: self.static_load_rating,
             ball_material: self.ball_material,
+            in_space: self.spatial.is_some(),
         }
     }
 

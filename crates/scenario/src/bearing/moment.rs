@@ -194,12 +194,16 @@ pub struct RatedBearing {
     pub static_load_rating: Option<f64>,
     /// Material of the balls.
     pub ball_material: BallMaterial,
+    /// Whether its axial loads are computed, in space.
+    pub in_space: bool,
 }
 
 impl Moment {
     pub(crate) fn from_values(values: &Values) -> Moment {
         let moment = values.section("bearing.moment");
         let law = moment.chosen("law").unwrap_or(MomentLaw::None);
+        // none in space, where it is computed
+        let axial_load: Option<f64> = moment.maybe("axial_load");
         match law {
             MomentLaw::None => Moment::None,
             MomentLaw::Palmgren | MomentLaw::PalmgrenPrinted => {
@@ -211,11 +215,7 @@ impl Moment {
                     f1_factor: moment.number("f1_factor"),
                     f1_exponent: moment.number("f1_exponent"),
                     preload: 0.0,
-                    axial_load: if printed {
-                        0.0
-                    } else {
-                        moment.number("axial_load")
-                    },
+                    axial_load: axial_load.filter(|_| !printed).unwrap_or(0.0),
                     contact_angle: moment.maybe("contact_angle").filter(|_| !printed),
                     // as printed there is no axial load, and P1 is the radial one
                     equivalent_load: moment
@@ -227,7 +227,7 @@ impl Moment {
                 series: values.text("bearing.moment.series").unwrap_or_default(),
                 bore_diameter: moment.number("bore_diameter"),
                 outer_diameter: moment.number("outer_diameter"),
-                axial_load: moment.number("axial_load"),
+                axial_load: axial_load.unwrap_or(0.0),
                 viscosity: moment.number("viscosity"),
                 supply: match moment.choice("lubrication") {
                     Lubricated::Grease | Lubricated::OilMist | Lubricated::OilAndAir => {
@@ -281,7 +281,7 @@ impl Moment {
                 }
                 let kind = bearing.kind.factor_type();
                 let radial_factor = equivalent_load.radial_factor(kind);
-                if *axial_load == 0.0 && radial_factor <= 1.0 {
+                if !bearing.in_space && *axial_load == 0.0 && radial_factor <= 1.0 {
                     return Ok(Friction::Palmgren(law));
                 }
                 let (radial, axial) =

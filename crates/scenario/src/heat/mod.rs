@@ -278,6 +278,7 @@ impl Warm {
             pitch_diameter: self.pitch_diameter,
             static_load_rating: self.static_load_rating,
             ball_material: self.ball_material,
+            in_space: false,
         }
     }
 }

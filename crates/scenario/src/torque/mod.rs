@@ -126,6 +126,7 @@ impl Torque {
             pitch_diameter: self.pitch_diameter,
             static_load_rating: self.static_load_rating,
             ball_material: self.ball_material,
+            in_space: false,
         }
     }
 }
@@ -219,6 +220,7 @@ fn moment_by(
         pitch_diameter: bearing.number("pitch_diameter"),
         static_load_rating: bearing.maybe("static_load_rating"),
         ball_material: ball_material(&bearing),
+        in_space: false,
     };
     let context = Context {
         values: &values,

@@ -23,14 +23,7 @@ pub(crate) fn bearing(
     contacts: &BallContacts,
     gravity: Vec2<f64>,
 ) -> Result<BearingConstants, Box<Problem>> {
-    let law = bearing
-        .moment
-        .law(&bearing.rated())
-        .map_err(|why| {
-            let allowed = "a law that has constants for this bearing";
-            problem_at(Code::NoLawData, "bearing.moment.law", why, allowed)
-        })?
-        .scaled(bearing.moment_share.scale);
+    let law = moment(bearing)?;
     let plane = Plane::of(bearing, contacts);
     let growth = bearing.inner_track_growth();
     Ok(match bearing.fidelity {
@@ -56,12 +49,7 @@ pub(crate) fn bearing(
             },
             cage_drag: bearing.drag.cage,
             first_ball_angle: bearing.first_ball_angle,
-            moment: (law != SteadyMoment::None).then(|| SharedMoment {
-                law,
-                axial_load: bearing.moment.axial_load(),
-                orbit_share: bearing.moment_share.orbit_share,
-                reference_spin: bearing.moment_share.reference_spin,
-            }),
+            moment: shared_moment(bearing)?,
             inlet_rolling: inlet_rolling(bearing, contacts)?,
             lubricant: lubricant_state(bearing),
             races: Some(contacts.races(bearing)),
@@ -85,6 +73,30 @@ pub(crate) fn bearing(
             lubricant: lubricant_state(bearing),
         }),
     })
+}
+
+/// The law of the steady moment.
+fn moment(bearing: &Bearing) -> Result<SteadyMoment<f64>, Box<Problem>> {
+    let law = bearing.moment.law(&bearing.rated()).map_err(|why| {
+        let allowed = "a law that has constants for this bearing";
+        problem_at(Code::NoLawData, "bearing.moment.law", why, allowed)
+    })?;
+    Ok(law.scaled(bearing.moment_share.scale))
+}
+
+/// The steady moment that the balls of a row share, where there is one; in space the axial load of each row is computed.
+pub(crate) fn shared_moment(bearing: &Bearing) -> Result<Option<SharedMoment>, Box<Problem>> {
+    let law = moment(bearing)?;
+    let share = bearing.moment_share;
+    Ok((law != SteadyMoment::None).then(|| SharedMoment {
+        law,
+        axial_load: match bearing.fidelity {
+            Fidelity::Spatial => 0.0,
+            Fidelity::Planar | Fidelity::Rolling => bearing.moment.axial_load(),
+        },
+        orbit_share: share.orbit_share,
+        reference_spin: share.reference_spin,
+    }))
 }
 
 /// The slow state of the lubricant, where it has one.

@@ -1,5 +1,6 @@
 //! From a bearing of a scenario to one in space.
 
+use crate::bearing::build::shared_moment;
 use crate::bearing::contacts::BallContacts;
 use crate::bearing::traction::traction;
 use model::contact::JournalContact;
@@ -149,6 +150,7 @@ pub(crate) fn rows(
         ));
     };
     let law = traction(given, contacts)?;
+    let moment = shared_moment(given)?;
     let nodes = nodes(own.nodes, contacts);
     Ok(geometry
         .grooves(closed)
@@ -169,6 +171,7 @@ pub(crate) fn rows(
             },
             nodes: nodes.clone(),
             traction: law,
+            moment: moment.clone(),
             cage: CageConstants {
                 inertia: Inertia {
                     mass: cage.mass,

@@ -55,7 +55,9 @@ pub(crate) fn steady(
     at: SteadyPoint,
 ) -> Result<Option<SteadyFinding>, Box<Problem>> {
     let SteadyPoint { speed, load, .. } = at;
-    if bearing.moment == Moment::None || speed == 0.0 {
+    // the rig has no bearing in space
+    let in_space = matches!(constants, BearingConstants::Spatial(_));
+    if bearing.moment == Moment::None || speed == 0.0 || in_space {
         return Ok(None);
     }
     // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step

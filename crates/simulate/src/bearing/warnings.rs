@@ -114,7 +114,9 @@ pub(crate) fn moment(scenario: &Scenario, name: &str, bearing: &Bearing) -> Vec<
     let mut list = Vec::new();
     let law = &bearing.moment;
     let (preload, counted) = (bearing.axial_preload, law.axial_load());
-    let by_load = matches!(law, Moment::Palmgren { .. } | Moment::Skf { .. });
+    // in space each row has the loads of its balls
+    let by_load = matches!(law, Moment::Palmgren { .. } | Moment::Skf { .. })
+        && bearing.fidelity != Fidelity::Spatial;
     if by_load && preload > 0.0 && (counted.abs() - preload).abs() > ROUNDED * preload {
         let printed = match law {
             Moment::Palmgren { printed: true, .. } => ", whose printed form has none",

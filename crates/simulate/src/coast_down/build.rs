@@ -530,7 +530,8 @@ pub(crate) fn losses(
         ));
     };
     let moment = Palmgren {
-        viscous_factor: run.moment_scale * f0,
+        // the flow in each row
+        viscous_factor: run.moment_scale * f0 * run.rows as f64,
         viscosity: *at_start,
         pitch_diameter: run.pitch_diameter,
         load_factor: run.moment_scale * f1_factor,

@@ -7,6 +7,7 @@ use crate::drop::build::Built;
 use crate::drop::context::{Context, Setup};
 use crate::drop::driven_columns::{self as table, Variable};
 use crate::drop::each::One;
+use crate::drop::warning_table::{ShaftWarning, TOUCHES_WITH_POWER};
 use crate::drop::{columns, events, outcome};
 use crate::ending::{settings_at, stop};
 use crate::ensemble::Member;
@@ -58,6 +59,7 @@ enum Target {
 
 /// A machine on its way.
 pub struct Driven {
+    commands: Commands,
     scenario: Scenario,
     built: Arc<Built>,
     member: Member,
@@ -170,6 +172,7 @@ impl Driven {
         };
         let settings = settings_at(run, stepping.tolerance);
         Ok(Driven {
+            commands: way.commands,
             quick,
             scenario: scenario.clone(),
             driver: driver(
@@ -347,6 +350,31 @@ impl Driven {
                 self.driver.time()
             );
         }
+        outcome
+    }
+
+    /// The same of a machine that its caller has driven, and not the controllers of its file.
+    pub fn outcome_from_outside(&mut self) -> Outcome {
+        let mut outcome = self.outcome();
+        // what is said of controllers is of those of the file
+        (outcome.warnings).retain(|warning| !warning.is(TOUCHES_WITH_POWER));
+        let of_magnets = match self.commands {
+            _ if self.member.machine.command(0).is_none() => "",
+            Commands::Current => {
+                "the currents of its magnets, in place of the controllers of the file, "
+            }
+            Commands::Voltage => {
+                "the voltages of its magnets, in place of the controllers of the file, "
+            }
+            Commands::Force => {
+                "the forces of its magnets, in place of the file's magnets and controllers, "
+            }
+        };
+        let commands = format!("{of_magnets}torque, forces and motion of the base");
+        outcome
+            .warnings
+            .insert(0, ShaftWarning::DrivenFromOutside { commands }.into());
+        outcome.title += ", driven from outside";
         outcome
     }
 

@@ -77,7 +77,9 @@ problem::warnings! {
             ("The shaft is {:.1} mm thick where the bearing stands, its bore (contact.bore_diameter) {:.1} mm: one of both is wrong, and friction acts at the radius of the bore.", 1e3 * shaft, 1e3 * bore);
         CurrentLimit { channel: text, others: words, limit: words, share: "1", time: "s" } "AB2034" Uncertain, each
             ("{channel} reaches the limit of its coil ({limit} A, {:.1} % of the time with power, first at {:.2} ms){others}: what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);
-        TouchesWithPower { time: "s" } "AB2035" Invalid, each
+        DrivenFromOutside { commands: text } "AB2037" Uncertain
+            ("The machine was driven from outside, as a co-simulation unit: {commands} came from its caller. Its file alone gives other results.");
+        TouchesWithPower { time: "s" } "AB2035" [TOUCHES_WITH_POWER] Invalid, each
             ("The rotor touches the bearing at {:.2} ms, while its magnets have power: their controllers do not hold it here, and a rub may change what they do.", 1e3 * time);
         VoltageLimit { channel: text, limit: words, share: "1", time: "s" } "AB2036" Uncertain, each
             ("{channel} reaches the largest of its amplifier ({limit}{:.1} % of the time with power, first at {:.2} ms): its current comes later than the controller wants it, and what the linear analysis says of stability and response does not hold there.", 100.0 * share, 1e3 * time);

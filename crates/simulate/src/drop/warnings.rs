@@ -246,7 +246,9 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
 /// What a scenario leaves out of a bearing in space, which a rotor may coast down on; none where it leaves nothing out.
 fn left_out(part: &AuxiliaryBearing, coasts: bool) -> Option<String> {
     let heats = (part.warm.as_ref()).is_some_and(|warm| warm.heat.feedback == Feedback::Full);
-    let grows = (part.bearing.as_ref()).is_some_and(|own| own.inner_track_growth() != 0.0);
+    let bearing = part.bearing.as_ref();
+    let grows = bearing.is_some_and(|own| own.inner_track_growth() != 0.0);
+    let resists = bearing.is_some_and(|own| own.moment != Moment::None);
     let words = [
         (
             !part.contact.faces.any(),
@@ -265,8 +267,8 @@ fn left_out(part: &AuxiliaryBearing, coasts: bool) -> Option<String> {
             "expansion of the inner ring with its speed (bearing.inner_race_growth)",
         ),
         (
-            !coasts,
-            "rolling resistance and drag of its lubricant, with which a coast-down is shorter",
+            !coasts || resists,
+            "rolling resistance and drag of its lubricant, with which a coast-down is shorter (bearing.moment)",
         ),
     ];
     let left: Vec<_> = words

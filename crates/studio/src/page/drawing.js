@@ -103,6 +103,11 @@ function liveView() {
   let [round, from] = [0, 0];
   return {
     node: holder,
+    // The run is over: its results are elsewhere.
+    ended() {
+      const instant = holder.querySelector(".instant");
+      if (instant && !instant.dataset.last) [instant.dataset.last, instant.textContent] = ["1", `last picture while it was computed, ${instant.textContent}`];
+    },
     async update(id) {
       const live = await ask(`/api/live?id=${id}&round=${round}&from=${from}`);
       if (!live.bearings.length) return;

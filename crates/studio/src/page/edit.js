@@ -8,7 +8,7 @@ const TASKS = { study: [["study", "Run study"]], qualify: [["qualify", "Run qual
 
 async function openFile(name) {
   if (open && open.name === name) return open.node;
-  if (open && open.dirty() && !window.confirm(`${open.name} has changes that are not saved. Leave them?`)) {
+  if (open && open.dirty() && !window.confirm(`${open.name} has changes that are not saved. Give them up?`)) {
     go("edit", open.name);
     return open.node;
   }
@@ -268,7 +268,9 @@ async function editorOf(name, text, hash) {
     // Compares with the file from time to time.
     async compare() {
       if (!asks.hidden) return;
-      if (waiting.length) await check();
+      // the scenario of a study may be mended by now
+      const others = found.problem && (kind === "study" || kind === "qualify");
+      if (waiting.length || others) await check();
       const there = await ask(`/api/file?name=${encodeURIComponent(name)}`);
       if (there.hash !== saved.hash) {
         if (there.text === past.now) saved = there;

@@ -229,6 +229,7 @@ function formsOf(table, act) {
 
   let shape = "";
   let lastValues = [];
+  let lastTree = {};
   return {
     node: el("div", { class: "form-side" }, el("div", { class: "form-tools" }, filter), node),
     filter,
@@ -236,6 +237,7 @@ function formsOf(table, act) {
     show({ typed: tree, values, problem, forced }) {
       // beside a mistake the values from before it
       lastValues = values || lastValues;
+      lastTree = tree || lastTree;
       const held = new Map(lastValues.filter((value) => !value.bearing).map((value) => [value.path, value]));
       for (const value of lastValues) if (value.bearing && !held.has(value.path)) held.set(value.path, value);
       const active = document.activeElement && document.activeElement.closest(".field");
@@ -279,7 +281,14 @@ function formsOf(table, act) {
     },
     fault(problem) {
       if (!problem || !problem.key) return false;
-      const row = fields.get(problem.key) || [...fields.values()].find((one) => one.node.dataset.path.replace(/\.(\d+)\./g, (_, k) => `.${Number(k) + 1}.`) === problem.key);
+      const pathOf = (one) => one.node.dataset.path;
+      // a value that all bearings share has its mistake in one of them
+      const onLine = (one) => {
+        const own = typedAt(lastTree, pathOf(one).split("."));
+        return isLeaf(own) && own.line === problem.line;
+      };
+      const all = [...fields.values()];
+      const row = fields.get(problem.key) || all.find((one) => pathOf(one).replace(/\.(\d+)\./g, (_, k) => `.${Number(k) + 1}.`) === problem.key) || all.find(onLine);
       if (!row) return false;
       row.wrong(problem.message);
       const box = row.node.closest("details");

@@ -15,7 +15,7 @@ function timePlot({ title, unit, lines }, time, choose) {
   const x = (instant) => PLOT.left + ((instant - first) / (last - first || 1)) * (PLOT.width - PLOT.left - PLOT.right);
   const y = (value) => PLOT.top + (1 - (value - low) / (high - low || 1)) * (PLOT.height - PLOT.top - PLOT.bottom);
   const text = (left, top, line, anchor) => svg("text", { x: left, y: top, "text-anchor": anchor, "font-size": 11, fill: "#22303c" }, line);
-  const path = ({ values }, k) => svg("path", { d: values.map((value, row) => `${row ? "L" : "M"}${x(time[row]).toFixed(1)} ${y(value).toFixed(1)}`).join(""), fill: "none", stroke: LINE_COLOURS[k % LINE_COLOURS.length], "stroke-width": 1.3 });
+  const path = ({ values }, k) => svg("path", { d: values.map((value, row) => `${row ? "L" : "M"}${x(time[row]).toFixed(1)} ${y(value).toFixed(1)}`).join(""), fill: "none", stroke: LINE_COLOURS[k % LINE_COLOURS.length], "stroke-width": 1.3, "stroke-dasharray": k % 2 ? "5 3" : null });
   const cursor = svg("line", { y1: PLOT.top, y2: PLOT.height - PLOT.bottom, stroke: "#b3261e", "stroke-width": 1.2 });
   const frame = [low, high].map((value) => [svg("line", { x1: PLOT.left, x2: PLOT.width - PLOT.right, y1: y(value), y2: y(value), stroke: "#dfe4e8" }), text(PLOT.left - 5, y(value) + 4, FIGURES.text(value, unit), "end")]);
   const picture = svg("svg", { viewBox: `0 0 ${PLOT.width} ${PLOT.height}`, role: "img", "aria-label": title }, frame, own.map(path), cursor, text(PLOT.left, PLOT.height - 4, FIGURES.text(first, "s"), "start"), text(PLOT.width - PLOT.right, PLOT.height - 4, FIGURES.text(last, "s"), "end"));

@@ -69,7 +69,7 @@ function jobView(id) {
       }
       if (meter) meter.value = job.share;
       const rest = job.state === "stopping" ? "stops at the next step and writes what was computed" : job.share >= 1 && !ends(job) ? "writes its results" : "";
-      line.textContent = [job.words, ends(job) || job.seconds ? secondsText(job.seconds) : "", rest].filter(Boolean).join(" · ");
+      line.textContent = [job.words, ends(job) || job.seconds ? `${ends(job) ? "took " : ""}${secondsText(job.seconds)}` : "", rest].filter(Boolean).join(" · ");
       // what a study says so far, as often as it is written
       if (job.page && job.page !== page && !ends(job)) {
         page = job.page;
@@ -78,6 +78,7 @@ function jobView(id) {
         place.replaceChildren(frameOf(`/page/run?run=${encodeURIComponent(job.directory)}&file=${file}&at=${page}`, "Results so far"));
       }
       if (["running", "stopping"].includes(job.state) || (ends(job) && !live.node.children.length)) await live.update(id);
+      if (ends(job)) live.ended();
     },
   };
 }
@@ -125,7 +126,7 @@ async function runsView() {
     if (!all) return "";
     const undecided = open ? `${open} of ${all} ${of} undecided` : "";
     if (fail) return el("span", { class: "bad" }, [`${fail} of ${all} ${of} not held`, undecided].filter(Boolean).join(", "));
-    return open ? el("span", { class: "stale" }, undecided) : el("span", { class: "good" }, `${pass} ${of} held`);
+    return open ? el("span", { class: "stale" }, undecided) : el("span", { class: "good" }, `${pass} ${pass === 1 ? of.replace(/s$/, "") : of} held`);
   };
   const cells = (row) => [
     el("td", {}, choose(row)),

@@ -177,6 +177,7 @@ impl Params<'_> {
                 })
                 .collect(),
             traction: self.traction()?,
+            moment: None,
             cage: CageConstants {
                 inertia: self.inertia(["m_c", "Ic_a", "Ic_t"])?,
                 drag: self.number("cc")?,
