@@ -2,7 +2,7 @@
 
 use crate::machine::{parsed, ran};
 use crate::outcomes::number;
-use auxbear::outcome::Value;
+use auxbear::outcome::{Value, Verdict};
 use auxbear::run::{Options, run, stiffness};
 use std::sync::atomic::AtomicBool;
 
@@ -166,6 +166,22 @@ fn a_preloaded_pair_is_as_stiff_to_the_rotor_as_alone() {
     let alone = stiffness::run(&asked, "test").unwrap();
     let alone = alone.stiffness[0][0];
     assert!((of("ball_stiffness") / alone - 1.0).abs() < 1e-3, "{alone}");
+    // at the rated speed against tilt: in series with the contact at both edges, 32 mm apart
+    let fast = stiffness::Typed {
+        texts: &[
+            ("--radial", Some(load.as_str())),
+            ("--preload", Some("240 N")),
+            ("--speed", Some("25000 rpm")),
+            ("--race-control", Some("half")),
+        ],
+        place: "test",
+    };
+    let asked = stiffness::Asked::read(&meant, &fast).unwrap();
+    let fast = stiffness::run(&asked, "test").unwrap().stiffness;
+    let contact = of("contact_stiffness") * (0.5 * 32e-3_f64).powi(2);
+    let expected = 1.0 / (1.0 / fast[4][4] + 1.0 / contact);
+    let found = of("tilt_stiffness");
+    assert!((found / expected - 1.0).abs() < 0.03, "{found} {expected}");
 }
 
 #[test]
@@ -269,6 +285,31 @@ fn the_preload_of_a_pair_follows_heat_and_speed() {
     };
     let [grown, plain] = [&grown, &plain].map(pressed);
     assert!(grown > 1.02 * plain, "{grown} {plain}");
+}
+
+/// The weight of an upright rotor goes towards the start of its shaft; a single row takes thrust towards the end unless it is turned round.
+#[test]
+fn thrust_on_the_open_side_of_a_row_has_no_verdict() {
+    let limited = format!(
+        "{FLYWHEEL}\n[[limit]]\nquantity = \"lower.peak_hertz_pressure\"\nmost = \"9 GPa\"\n[[limit]]\nwarning = \"AB2412\"\n"
+    )
+    .replacen("arrangement = \"DB\"", "arrangement = \"single\"", 1)
+    .replacen("axial_preload = \"90 N\"", "", 1);
+    let run = |side: &str| {
+        let side = format!("auxiliary_bearing.lower.bearing.thrust_side={side}");
+        ran(&limited, &[side.as_str(), "run.duration=20 ms"])
+    };
+    let warned =
+        |run: &auxbear::Outcome, code: &str| run.warnings.iter().any(|own| own.code == code);
+    let verdicts = |run: &auxbear::Outcome| -> Vec<Verdict> {
+        run.limits.iter().map(|own| own.verdict).collect()
+    };
+    let (right, wrong) = (run("start"), run("end"));
+    assert!(!warned(&right, "AB2420") && warned(&wrong, "AB2420"));
+    // without the height of its shoulders nobody knows whether a contact leaves its groove
+    assert!(warned(&right, "AB2415"));
+    assert_eq!(verdicts(&right), [Verdict::Pass, Verdict::Undecided]);
+    assert_eq!(verdicts(&wrong), [Verdict::Undecided, Verdict::Undecided]);
 }
 
 /// Law, heat and lubricant of a pair, and that its rotor slows down.

@@ -85,8 +85,16 @@ fn a_horizontal_rotor_coasts_down_on_pairs_as_ball_by_ball() {
             .count(),
         4
     );
-    // no law knows these bearings
-    assert_eq!(number(&run, "coast_down.speed_dependent_heat"), 0.0);
+    // no law parts the moment of these bearings
+    let parted = run.quantity("coast_down.speed_dependent_heat").unwrap();
+    assert!((parted.value.why_absent()).is_some_and(|why| why.contains("as a whole")));
+    for name in ["expander_end", "compressor_end"] {
+        let used = number(
+            &run,
+            &format!("{name}.coast_down.life_share_with_lubricant"),
+        );
+        assert!(used > 0.0, "{name}: {used}");
+    }
 }
 
 #[test]
@@ -108,6 +116,12 @@ fn a_vertical_rotor_coasts_down_on_the_face_of_its_pair_as_ball_by_ball() {
         ("upper.cage", 314.89),
     ];
     as_ball_by_ball(&run, 3.0, (3769.6612, 3769.2075, 0.02), &temperatures);
+    // thrust alone presses its balls, and takes of their life
+    for name in ["lower", "upper"] {
+        let of = |what: &str| number(&run, &format!("{name}.coast_down.{what}"));
+        assert!(of("life_share") > 0.0 && of("life_share_with_lubricant") > 0.0);
+        assert!(of("runs_until_ten_percent_fail") > 1.0);
+    }
     // its weight rests on one face, and friction in the bore makes too much of the losses for one that rolls
     let thrust = number(&run, "lower.coast_down.peak_axial_force") / (60.0 * 9.81);
     assert!((1.0..1.2).contains(&thrust), "{thrust}");

@@ -66,6 +66,25 @@ pub fn not_evaluated(
     })
 }
 
+/// Warnings that a run cannot give which says of itself that it does not judge this: code of one, and of what says so.
+const UNJUDGED: [(&str, &str); 1] = [("AB2412", "AB2415")];
+
+/// Why some of these warnings cannot come in a run with these others; none where all may.
+pub fn unjudged(
+    forbids: &Forbidden,
+    declared: &[&'static Declared],
+    warned: impl Fn(&str) -> bool,
+) -> Option<String> {
+    let meets = |code: &str| {
+        let mut kinds = declared.iter().filter(|kind| kind.code == code);
+        kinds.any(|kind| forbids.meets(kind.code, kind.severity))
+    };
+    let found = UNJUDGED
+        .iter()
+        .find(|(code, says)| meets(code) && warned(says));
+    found.map(|(code, says)| format!("{code} is not evaluated ({says})"))
+}
+
 /// Their number in each member, 0 or 1, and why some are not known: the run ended early, or only the unperturbed member is evaluated.
 pub(super) fn values(
     scenario: &Scenario,
@@ -95,7 +114,10 @@ pub(super) fn values(
         };
         (least, most) = (least.max(certain), most + possible);
     }
-    let unknown = not_evaluated(forbids, declared, &outcome.quantities);
+    let unknown = not_evaluated(forbids, declared, &outcome.quantities).or_else(|| {
+        let warned = |code: &str| outcome.warnings.iter().any(|own| own.code == code);
+        unjudged(forbids, declared, warned)
+    });
     let (known, why) = match unseen {
         _ if !outcome.stop.complete() => (0, outcome.stop.text.trim_end_matches('.').to_string()),
         _ if unknown.is_some() => (0, unknown.unwrap_or_default()),

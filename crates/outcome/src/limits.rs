@@ -32,9 +32,17 @@ use statistics::share::{
 use std::collections::BTreeSet;
 use units::{Dimension, Unit};
 
-/// What is said of runs that qualify no machine instead of a verdict.
-const WITHHELD: &str =
-    "no verdict where weight acts along the shaft: that motion and its force are not in this run";
+/// Warnings of runs that qualify no machine, and what is said of them instead of a verdict.
+const OF_NO_MACHINE: [(&str, &str); 2] = [
+    (
+        NO_QUALIFICATION.code,
+        "no verdict where weight acts along the shaft: that motion and its force are not in this run",
+    ),
+    (
+        "AB2420",
+        "no verdict where a row carries thrust on its open side: no such bearing holds together",
+    ),
+];
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -178,7 +186,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             .map(|(_, angle)| angle.clone())
     };
     let angles: BTreeSet<Option<String>> = outcome.drawn.iter().map(angle_of).collect();
-    let no_qualification = outcome.warnings.iter().any(|own| own.is(NO_QUALIFICATION));
+    let no_machine = of_no_machine(|code| outcome.warnings.iter().any(|own| own.code == code));
     let judged = |limit: &Limit| {
         let mut quantities = outcome.quantities.iter();
         let quantity = quantities.find(|quantity| quantity.name == limit.quantity);
@@ -198,18 +206,24 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             true => whirl_sought(judged, angles.len().max(1), slips_in(limit, outcome)),
             false => judged,
         };
-        match no_qualification {
-            true => withheld(judged),
-            false => judged,
-        }
+        withheld(judged, no_machine.as_deref())
     };
     let limits = named(&scenario.limits_here(), &outcome.quantities);
     limits.iter().map(judged).collect()
 }
 
-/// A verdict of runs that qualify no machine.
-pub fn withheld(judged: Judged) -> Judged {
-    undecided(judged, format!("{WITHHELD} ({})", NO_QUALIFICATION.code))
+/// Why runs with these warnings qualify no machine; none where they may.
+pub fn of_no_machine(warned: impl Fn(&str) -> bool) -> Option<String> {
+    let found = OF_NO_MACHINE.iter().find(|(code, _)| warned(code));
+    found.map(|(code, why)| format!("{why} ({code})"))
+}
+
+/// A verdict of runs that qualify no machine for this reason.
+pub fn withheld(judged: Judged, of_no_machine: Option<&str>) -> Judged {
+    match of_no_machine {
+        Some(why) => undecided(judged, why.to_string()),
+        None => judged,
+    }
 }
 
 /// A verdict that something speaks against: what is broken stays so.

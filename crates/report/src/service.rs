@@ -235,6 +235,10 @@ fn together(runs: &[Run], bearing: &str) -> Result<f64, String> {
         for part in ["", COAST_DOWN] {
             for (side, ring) in ["inner", "outer"].into_iter().zip(&mut rings) {
                 let name = format!("{part}{side}_life_share_by_point");
+                if let Some(why) = run.lacks(bearing, &name) {
+                    let directory = run.directory.display();
+                    return Err(format!("{directory}: {name}: {why}"));
+                }
                 let points = run.list(bearing, &name);
                 known |= !points.is_empty();
                 add_points(ring, &points, run.count);
@@ -255,6 +259,10 @@ impl Run<'_> {
         let found = self.summary["quantities"][of_part(bearing, name)]["value"].as_array();
         let numbers = found.into_iter().flatten().filter_map(Value::as_f64);
         numbers.collect()
+    }
+    /// Why a result of it has no value; none where it has one, or no such result.
+    fn lacks(&self, bearing: &str, name: &str) -> Option<&str> {
+        self.summary["quantities"][of_part(bearing, name)]["why"].as_str()
     }
     /// Names of its bearings; an only one has none, and a run without bearings that can be used up has no bearing.
     fn bearings(&self) -> Vec<String> {

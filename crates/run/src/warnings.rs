@@ -22,6 +22,11 @@ use simulate::stepping::SteppingWarning;
 
 /// Every kind of warning, home by home; kinds with one code differ in their sentences.
 pub fn declared() -> impl Iterator<Item = &'static Declared> {
+    of_runs().chain(StiffnessWarning::DECLARED)
+}
+
+/// Those that a run of a scenario may give.
+pub fn of_runs() -> impl Iterator<Item = &'static Declared> {
     let homes = [
         ValueWarning::DECLARED,
         LubricantWarning::DECLARED,
@@ -42,7 +47,6 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
         MountWarning::DECLARED,
         TorqueWarning::DECLARED,
         MeasuredWarning::DECLARED,
-        StiffnessWarning::DECLARED,
     ];
     homes.into_iter().flatten()
 }

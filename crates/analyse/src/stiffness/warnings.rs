@@ -17,6 +17,8 @@ problem::warnings! {
             ("Row {row} is unloaded: no ball of it touches the inner ring. A larger preload keeps it loaded.");
         LostInner { balls: "1" } "AB2404" Uncertain
             ("{balls} balls are held by the outer race alone: centrifugal force has lifted them from the inner race.");
+        OpenSide { row: "1", angle: "rad" } "AB2409" Invalid
+            ("Row {row} carries on its open side, {:.1} deg beyond the bottom of its groove: an angular contact row has no shoulder there, its rings come apart, and this stiffness is that of a bearing that does not exist. Turn the load or the arrangement round.", angle.to_degrees());
         SpringFree { followed: "m" } "AB2407" Uncertain
             ("The preload spring is free: it has followed the rows by {:.1} um. The rows on it carry nothing.", 1e6 * followed);
         SpringSolid { travel: "m" } "AB2408" Uncertain
@@ -47,6 +49,9 @@ const STATIC_PRESSURE: f64 = 4.2e9;
 /// Contact angle up to which the constant of the contact holds to 1 %, rad.
 const LARGEST_ANGLE: f64 = std::f64::consts::FRAC_PI_4;
 
+/// Contact angle beyond which a ball is on the other side of the groove's bottom, rad.
+const OPEN: f64 = 0.05;
+
 /// Rows of balls.
 pub(super) struct Rows<'a>(pub &'a [Vec<Ball>]);
 
@@ -72,6 +77,16 @@ pub(super) fn of(asked: &Asked, rows: &Rows<'_>) -> Vec<Warning> {
         });
         let angle = reaching.map(|ball| ball.angles[0].abs()).reduce(f64::max);
         list.extend(angle.map(|angle| StiffnessWarning::Shoulder { angle, height }.into()));
+    }
+    let signs = asked.arrangement.signs();
+    for (row, (balls, sign)) in rows.0.iter().zip(signs).enumerate() {
+        let wrong = balls.iter().filter(|ball| ball.loads[0] > 0.0);
+        let angles = wrong.map(|ball| -ball.angles[0] * sign);
+        let angle = angles.fold(0.0, f64::max);
+        if angle > OPEN && !asked.opposite {
+            let row = row as f64 + 1.0;
+            list.push(StiffnessWarning::OpenSide { row, angle }.into());
+        }
     }
     let mut closed_rows = 0;
     for (index, balls) in rows.0.iter().enumerate() {

@@ -136,7 +136,7 @@ pub(crate) struct Loads<R> {
     pub axial: R,
     /// ΣQ_i, N.
     pub inner_sum: R,
-    /// Part of M1 that the contacts make by spin and curvature, N m.
+    /// What the contacts make by spin and curvature, which the law contains, N m: a part of M1, of a measured curve of all of it.
     pub by_contacts: R,
 }
 
@@ -202,7 +202,13 @@ impl<R: Real> MomentPairs<R> {
         let (load, inner_sum) = (loads.radial, loads.inner_sum);
         let axial_load = self.axial_load + loads.axial;
         let mut parts = (self.law).parts(speed.abs().max(limit), load, axial_load);
-        parts.load_dependent = (parts.load_dependent - loads.by_contacts).max(R::zero());
+        let mut drag_factor = drag_factor;
+        if let SteadyMoment::Curve(_) = self.law {
+            let left = (parts.speed_dependent - loads.by_contacts).max(R::zero());
+            drag_factor = drag_factor * left / parts.speed_dependent.max(R::splat(1e-30));
+        } else {
+            parts.load_dependent = (parts.load_dependent - loads.by_contacts).max(R::zero());
+        }
         let idle_load = self.idle_load * parts.sum();
         // without load and moment nothing is shared: the quotient is of zeros
         let per_load = (inner_sum + self.balls * idle_load)

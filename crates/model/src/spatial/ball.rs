@@ -15,6 +15,8 @@ use crate::bearing::steady_moment::Geometry;
 use number::{Real, Vec3, constants};
 use physics::load_zone::joint_stiffness;
 
+/// Distance of the grooves' centres along the axis, over the ball's radius, up to which they stand opposite each other.
+const OPPOSITE: f64 = 1e-4;
 /// States of a ball.
 pub const BALL_STATES: usize = 9;
 
@@ -100,6 +102,14 @@ impl SpatialBall<f64> {
             self.outer.centre_radius - self.inner.centre_radius,
             self.outer.place - self.inner.place,
         ]
+    }
+    /// Sign of the thrust on the inner ring that its row takes; 0 of grooves that stand opposite each other.
+    pub fn side(&self) -> f64 {
+        let apart = self.inner.place - self.outer.place;
+        match apart.abs() > OPPOSITE * self.radius {
+            true => apart.signum(),
+            false => 0.0,
+        }
     }
     /// As one of so many it rolls between concentric rings.
     pub(super) fn rolls(&self, balls: usize) -> Geometry {

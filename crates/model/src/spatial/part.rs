@@ -19,7 +19,7 @@ use super::race::{RingMotion, Touch};
 use super::rigid_body::{BODY_STATES, Inertia, RigidBody, SpatialWrench};
 use super::row::{BallContacts, CageGuide, RowConstants};
 use super::statics::ball::Running;
-use super::statics::{RaceControl, RingLoad, StaticBall, StaticRow, StaticRows};
+use super::statics::{Equilibrium, RaceControl, RingLoad, StaticBall, StaticRow, StaticRows};
 use super::{PreloadSpring, preload_at_rest};
 use crate::auxiliary_bearing::{AuxiliaryBearingConstants, BearingAt, Outlet, probe};
 use crate::base::Masses;
@@ -81,6 +81,12 @@ impl SpatialBearing {
     /// Displacement of the inner ring under a radial load, N, at rest, m, one ball of each row on the load line; none where no preload
     /// presses its rows, or no equilibrium is found.
     pub fn displacement_of_preloaded(&self, load: f64) -> Option<f64> {
+        let found = self.preloaded(load, 0.0)?;
+        Some(found.displacement.shift[0])
+    }
+    /// Equilibrium of the inner ring under a radial load along x, N, at a speed of it, rad/s, one ball of each row on the load line; none
+    /// where no preload presses its rows, or no equilibrium is found.
+    pub fn preloaded(&self, load: f64, speed: f64) -> Option<Equilibrium> {
         let pressed: Vec<_> = self.rows.iter().map(|row| (row.balls, row.ball)).collect();
         if preload_at_rest(&pressed, self.spring.as_ref()) <= 0.0 {
             return None;
@@ -91,7 +97,7 @@ impl SpatialBearing {
             ball: StaticBall {
                 radius: ball.radius,
                 mass: ball.mass,
-                inner: ball.inner,
+                inner: ball.inner_at(speed),
                 outer: ball.outer,
             },
         });
@@ -99,16 +105,15 @@ impl SpatialBearing {
             force: [load, 0.0, 0.0],
             moment: [0.0; 2],
         };
-        let at_rest = Running {
-            speed: 0.0,
+        let running = Running {
+            speed,
             control: RaceControl::Half,
         };
         let rows = StaticRows {
             rows: rows.collect(),
             spring: self.spring,
         };
-        let found = rows.settle(&radial, &at_rest).ok()?;
-        Some(found.displacement.shift[0])
+        rows.settle(&radial, &running).ok()
     }
     /// The outer ring of a row in these own states.
     fn outer_of(&self, row: &RowConstants, outer: RigidBody<f64>, state: &[f64]) -> RigidBody<f64> {

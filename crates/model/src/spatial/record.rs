@@ -25,6 +25,22 @@ pub struct RunOver {
     pub load: f64,
 }
 
+/// A ball that carries on the side of its groove that has no shoulder.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OpenSide {
+    /// Row, from 0.
+    pub row: usize,
+    /// When it carried most, s.
+    pub time: f64,
+    /// Its load at the inner race then, N.
+    pub load: f64,
+    /// Contact angle there, of its size, rad.
+    pub angle: f64,
+}
+
+/// Contact angle beyond which a ball of a row with an angle is on the other side of the groove's bottom, rad.
+const OPEN: f64 = 0.05;
+
 /// Everything kept of a bearing in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialRecord {
@@ -34,6 +50,8 @@ pub struct SpatialRecord {
     pub unloaded: Vec<Option<f64>>,
     /// The first ellipse over a shoulder.
     pub run_over: Option<RunOver>,
+    /// The largest load of a row on its open side.
+    pub open_side: Option<OpenSide>,
     /// Largest force on the faces, N.
     pub axial_force: Peak,
     /// When a shoulder first met a face, s.
@@ -57,6 +75,7 @@ impl SpatialRecord {
             largest_angles: [Peak::NONE; 2],
             unloaded: vec![None; bearing.rows.len()],
             run_over: None,
+            open_side: None,
             axial_force: Peak::NONE,
             first_axial_contact: None,
             last_axial_contact: None,
@@ -109,8 +128,20 @@ impl SpatialRecord {
                     continue;
                 }
                 pressed[row] |= race == 0;
-                let angle = touch.triad.normal[1].asin().abs();
+                let turned = touch.triad.normal[1].asin();
+                let angle = turned.abs();
                 self.largest_angles[race].raise(angle, time);
+                if race == 0 && turned * bearing.rows[row].ball.side() > OPEN {
+                    let most = self.open_side.map_or(0.0, |own| own.load);
+                    if load > most {
+                        self.open_side = Some(OpenSide {
+                            row,
+                            time,
+                            load,
+                            angle,
+                        });
+                    }
+                }
                 let half = touch.half_axis / bearing.rows[row].ball.radius;
                 let beyond = (bearing.groove_ends).is_some_and(|ends| angle + half > ends[race]);
                 if beyond && self.run_over.is_none() {

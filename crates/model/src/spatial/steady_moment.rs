@@ -11,7 +11,7 @@
 //! spin stands: the power of the pairs is then M Ω. A couple about the ring's axis instead would miss a part of M that depends on that.
 //!
 //! Laws of M1 were measured with the spin and the curvature of the contacts in it, which are computed here: M1 is taken
-//! without P/|Ω|, P = Σ M·Δ of the couples in the contacts, as far as it reaches. Of one node P is zero, and the row is that of the plane.
+//! without P/|Ω|, P = Σ M·Δ of the couples in the contacts, as far as it reaches; a measured curve, whose parts are not known, as a whole. Of one node P is zero, and the row is that of the plane.
 //!
 //! A row has the law of one row, with its own radial and axial loads |Σ Q_i n|.
 //!

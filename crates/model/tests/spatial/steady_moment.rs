@@ -2,10 +2,12 @@
 
 use super::closed_forms::run;
 use super::setup::*;
+use model::bearing::SteadyMoment;
 use model::spatial::ball::BALL_STATES;
 use model::spatial::{Assembly, AssemblyConstants};
 use number::Vec3;
 use physics::contact_nodes::{ContactNode, matched, middle};
+use physics::moment_curve::MomentCurve;
 
 const SPEED: f64 = 1000.0;
 
@@ -71,6 +73,16 @@ fn resisted(machine: &AssemblyConstants, state: &[f64]) -> (f64, f64) {
     (probe.inner_torque, rate[machine.first_account() + 4])
 }
 
+/// Heat of spin and curvature in the contacts, W.
+fn spun(machine: &AssemblyConstants, state: &[f64]) -> f64 {
+    let own = |j: usize| {
+        let races = machine.ball(0, j, state).races;
+        let own = |k: usize| races.traction[k].couple.dot(races.touch[k].turning);
+        own(0) + own(1)
+    };
+    (0..machine.rows[0].balls).map(own).sum()
+}
+
 /// The law's parts of a row under the loads of its balls, N m.
 fn law(machine: &AssemblyConstants, state: &[f64]) -> [f64; 2] {
     let row = &machine.rows[0];
@@ -105,24 +117,32 @@ fn what_contacts_resist_by_spin_is_part_of_the_load_dependent_moment() {
     for factor in [1.0, 0.0] {
         let mut machine = pressed(&matched(8.0));
         let moment = machine.rows[0].moment.as_mut().unwrap();
-        moment.law = moment.law.clone();
-        if let model::bearing::SteadyMoment::PalmgrenCombined(own) = &mut moment.law {
+        if let SteadyMoment::PalmgrenCombined(own) = &mut moment.law {
             own.law.load_factor *= factor;
         }
         let state = rolling(&machine, 300.0);
-        let spun: f64 = (0..machine.rows[0].balls)
-            .map(|j| {
-                let races = machine.ball(0, j, &state).races;
-                let own = |k: usize| races.traction[k].couple.dot(races.touch[k].turning);
-                own(0) + own(1)
-            })
-            .sum();
+        let spun = spun(&machine, &state);
         let [viscous, loaded] = law(&machine, &state);
         assert!(spun > 0.01 * loaded * SPEED);
         let (_, power) = resisted(&machine, &state);
         let expected = viscous * SPEED + (loaded * SPEED - spun).max(0.0);
         assert!((power / expected - 1.0).abs() < 1e-10, "{power} {expected}");
     }
+}
+
+#[test]
+fn a_measured_curve_contains_what_contacts_resist() {
+    let mut machine = pressed(&matched(8.0));
+    let moment = machine.rows[0].moment.as_mut().unwrap();
+    let curve = [(10.0, 0.05), (500.0, 0.06), (2.0 * SPEED, 0.08)];
+    moment.law = SteadyMoment::Curve(MomentCurve::through(&curve).unwrap());
+    let state = rolling(&machine, 300.0);
+    let spun = spun(&machine, &state);
+    let [measured, none] = law(&machine, &state);
+    assert!(spun > 1e-3 * measured * SPEED && none == 0.0);
+    let (_, power) = resisted(&machine, &state);
+    let expected = measured * SPEED - spun;
+    assert!((power / expected - 1.0).abs() < 1e-10, "{power} {expected}");
 }
 
 #[test]

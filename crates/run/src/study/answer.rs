@@ -6,7 +6,6 @@ use super::selection::Candidate;
 use super::table::Table;
 use outcome::limits;
 use outcome::{Judged, Spread, Value, Verdict};
-use scenario::notes::NO_QUALIFICATION;
 use scenario::{Limit, UNBALANCE_ANGLE};
 use statistics::design::Design;
 use statistics::elementary::{Effect, effects};
@@ -109,6 +108,7 @@ impl Study {
             Design::Selection(..) => &[],
             _ => self.file.limits.as_slice(),
         };
+        let no_machine = limits::of_no_machine(|code| table.warns(code));
         let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
             let decisive = self.limited(table, limit);
@@ -131,9 +131,7 @@ impl Study {
                 found.judged.why = "no member is of its case".to_string();
             }
             found.judged = self.whirl_sought(found.judged, table, &own);
-            if table.warns(NO_QUALIFICATION.code) {
-                found.judged = limits::withheld(found.judged);
-            }
+            found.judged = limits::withheld(found.judged, no_machine.as_deref());
             let (ran, asked) = (table.members.len(), self.members());
             if 0 < ran && ran < asked {
                 let why = format!("{ran} of {asked} members have run");
@@ -167,7 +165,7 @@ impl Study {
     /// A verdict over some rows; of a limit of whirl by the unbalance angles that members try, and whether races that were touched come to
     /// their speed.
     pub(super) fn whirl_sought(&self, judged: Judged, table: &Table, rows: &[usize]) -> Judged {
-        let declared: Vec<_> = crate::warnings::declared().collect();
+        let declared: Vec<_> = crate::warnings::of_runs().collect();
         if !limits::seeks_whirl(&judged.limit, &self.known, &declared) {
             return judged;
         }

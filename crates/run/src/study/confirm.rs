@@ -3,7 +3,7 @@
 use super::Study;
 use super::table::{CONFIRMED, Column, LATE, STOPPED, Table, warned_of};
 use crate::Options;
-use outcome::forbidden::not_evaluated;
+use outcome::forbidden::{not_evaluated, unjudged};
 use outcome::list::NOT_GIVEN;
 use outcome::{Value, limits};
 use scenario::Limit;
@@ -67,7 +67,7 @@ impl Study {
     pub fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
         match &limit.forbids {
             Some(forbids) => {
-                let declared: Vec<_> = crate::warnings::declared().collect();
+                let declared: Vec<_> = crate::warnings::of_runs().collect();
                 // before the runs nothing has a value but what its keys leave out
                 let mut known = self.known.clone();
                 for own in &mut known {
@@ -75,7 +75,8 @@ impl Study {
                         own.value = Value::Number(0.0);
                     }
                 }
-                match not_evaluated(forbids, &declared, &known) {
+                let unjudged = || unjudged(forbids, &declared, |code| table.warns(code));
+                match not_evaluated(forbids, &declared, &known).or_else(unjudged) {
                     Some(_) => vec![None; table.members.len()],
                     None => warned_of(table, forbids),
                 }

@@ -117,7 +117,7 @@ impl Study {
         }
         drop(machine);
         let own = file.limits.len() - file.scenario.limits.len();
-        let declared: Vec<_> = crate::warnings::declared().collect();
+        let declared: Vec<_> = crate::warnings::of_runs().collect();
         limits::check(&file.limits[..own], &known, &declared).map_err(|mut problem| {
             problem.file.clone_from(&file.file);
             problem

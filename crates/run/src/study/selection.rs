@@ -8,7 +8,6 @@ use super::Study;
 use super::table::{LATE, Table, warned_of};
 use outcome::limits::{self, CONTACTS};
 use outcome::{Judged, Verdict};
-use scenario::notes::NO_QUALIFICATION;
 use scenario::{Forbidden, Side};
 use statistics::design::{Coordinate, Design};
 use statistics::random::below;
@@ -146,18 +145,14 @@ impl Study {
             rows.iter().map(|row| values[*row]).collect()
         };
         let case = self.case_of(member);
-        let no_verdict = table.warns(NO_QUALIFICATION.code);
+        let no_machine = limits::of_no_machine(|code| table.warns(code));
         let own = self.file.limits.iter();
         let own = own.filter(|limit| limit.case.is_none() || limit.case == case);
         let judged = own.map(|limit| {
             let values = of(&self.limited(table, limit));
             let judged = limits::judge(limit, self.unit_of(&limit.quantity), &values, &lacking);
             let judged = self.whirl_sought(judged, table, rows);
-            let judged = if no_verdict {
-                limits::withheld(judged)
-            } else {
-                judged
-            };
+            let judged = limits::withheld(judged, no_machine.as_deref());
             let size = |value: f64| {
                 if limit.side == Side::Most {
                     value

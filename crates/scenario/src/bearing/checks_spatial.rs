@@ -58,6 +58,11 @@ impl Context<'_> {
             let needed = "0 m or more is needed: grooves of a deep groove bearing in space that are pressed radially have no contact angle";
             return refuse(clearance, needed);
         }
+        if (own.shoulder_height).is_some_and(|height| height >= 0.5 * bearing.ball_diameter) {
+            let needed =
+                "less than the radius of a ball is needed: no ball comes into a deeper groove";
+            return refuse("bearing.shoulder_height", needed);
+        }
         let arrangement = "bearing.arrangement";
         let named = self
             .values
@@ -81,6 +86,10 @@ impl Context<'_> {
         if !angular {
             let needed = "\"single\" is needed of bearings without a contact angle (bearing.type = \"angular contact\" has one)";
             return refuse(arrangement, needed);
+        }
+        if own.row_spacing > 0.0 && own.row_spacing < bearing.ball_diameter {
+            let needed = "the diameter of a ball at least is needed: rows stand side by side";
+            return refuse("bearing.row_spacing", needed);
         }
         if own.row_spacing <= 0.0 {
             let found = format!("{} without bearing.row_spacing", self.text(arrangement));

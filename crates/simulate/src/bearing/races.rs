@@ -153,7 +153,13 @@ const DROPS_UNTIL: [(&str, f64); 3] = [
 ];
 
 fn drops(share: f64, survival: f64) -> Result<f64, String> {
-    let none = || "no ball loaded a race that turned".to_string();
+    let none = || {
+        let why = match share.is_nan() {
+            true => "what it takes of the life is not known",
+            false => "no ball loaded a race that turned",
+        };
+        why.to_string()
+    };
     (share > 0.0)
         .then(|| repetitions(share, survival))
         .ok_or_else(none)

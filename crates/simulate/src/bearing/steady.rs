@@ -4,8 +4,11 @@ use crate::bearing::contacts::ball_contacts;
 use crate::bearing::traction::traction;
 use model::auxiliary_bearing::RaceConstants;
 use model::bearing::BearingConstants;
+use model::spatial::RowConstants;
+use model::spatial::part::SpatialBearing;
+use model::spatial::statics::BallEquilibrium;
 use model::system::machine::RotorMachine;
-use model::system::rig::capacity::{LEAST_CAPACITY, traction_capacity};
+use model::system::rig::capacity::{LEAST_CAPACITY, largest_coefficient, traction_capacity};
 use model::system::rig::layout::{INNER, INNER_LOAD_SUM, STEADY_MOMENT};
 use model::system::rig::{Drive, Refusal, RigConstants};
 use model::table::Table;
@@ -55,10 +58,11 @@ pub(crate) fn steady(
     at: SteadyPoint,
 ) -> Result<Option<SteadyFinding>, Box<Problem>> {
     let SteadyPoint { speed, load, .. } = at;
-    // the rig has no bearing in space
-    let in_space = matches!(constants, BearingConstants::Spatial(_));
-    if bearing.moment == Moment::None || speed == 0.0 || in_space {
+    if bearing.moment == Moment::None || speed == 0.0 {
         return Ok(None);
+    }
+    if let BearingConstants::Spatial(own) = constants {
+        return Ok(in_space(own, (speed, load)));
     }
     // a race that runs at its speed from the start, or nearly so where the balls cannot follow a step
     let drive = match constants {
@@ -91,6 +95,36 @@ pub(crate) fn steady(
         moment,
         capacity: capacity / moment.abs(),
     }))
+}
+
+/// The row of a preloaded bearing in space whose traction is the smallest share of its moment, under a radial load, N, without thrust at
+/// rest; none where no preload presses it.
+fn in_space(own: &SpatialBearing, (speed, load): (f64, f64)) -> Option<SteadyFinding> {
+    let found = own.preloaded(load, 0.0)?;
+    let of_row = |(row, balls): (&RowConstants, &Vec<BallEquilibrium>)| {
+        let moment = row.moment.as_ref()?;
+        let sum: f64 = balls.iter().map(|ball| ball.loads[0]).sum();
+        let part = |of: &dyn Fn(&BallEquilibrium) -> f64| -> f64 {
+            balls.iter().map(|ball| ball.loads[0] * of(ball)).sum()
+        };
+        let across = |ball: &BallEquilibrium| ball.angles[0].cos();
+        let radial = part(&|ball| across(ball) * ball.azimuth.cos())
+            .hypot(part(&|ball| across(ball) * ball.azimuth.sin()));
+        let axial = part(&|ball| ball.angles[0].sin());
+        let whole = moment.law.moment(speed.abs(), radial, axial.abs());
+        let set = &own.set;
+        let track = set.inner_track_radius;
+        let entrainment = track * (speed.abs() - set.cage_speed(speed.abs()));
+        let coefficient = largest_coefficient(&row.traction, sum / row.balls as f64, entrainment);
+        Some(SteadyFinding {
+            speed,
+            load,
+            moment: whole,
+            capacity: coefficient * track * sum / whole,
+        })
+    };
+    let rows = own.rows.iter().zip(&found.rows).filter_map(of_row);
+    rows.min_by(|a, b| a.capacity.total_cmp(&b.capacity))
 }
 
 /// A machine that the model refuses, reported with the key that decides.

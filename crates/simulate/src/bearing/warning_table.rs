@@ -50,9 +50,11 @@ problem::warnings! {
     /// Of a bearing in space.
     pub enum SpatialWarning {
         RowUnloaded { row: "", time: "s" } "AB2411" Uncertain, each
-            ("Row {row} carries nothing at {:.2} ms: its balls are held by the outer race alone, slow down against the others and skid when they are pressed again. More preload keeps a row pressed.", 1e3 * time);
+            ("Row {row} carries nothing at {:.2} ms: its balls are held by the outer race alone, slow down against the others and skid when they are pressed again. Where rows press on each other more preload keeps them pressed.", 1e3 * time);
         RunOver { ball: "", race: words, time: "s", angle: "rad", load: "N" } "AB2412" Destroys, each
             ("The contact ellipse of ball {ball} reaches over the shoulder of the {race} groove at {:.2} ms (contact angle {:.0} deg, {load:.0} N): the stress at that edge is not computed and may be several times that of the ellipse. From there on loads and angles are those of a groove that goes on.", 1e3 * time, angle.to_degrees());
+        OpenSide { row: "", time: "s", load: "N", angle: "rad" } "AB2420" Destroys, each
+            ("Row {row} carries thrust on its open side: {load:.0} N on a ball at {:.2} ms, {:.0} deg beyond the bottom of its groove. An angular contact row has no shoulder there: its rings come apart, and from there on this run is that of a bearing that does not exist. Turn the row round (bearing.thrust_side, bearing.preload_spring_side), or let another one carry this thrust.", 1e3 * time, angle.to_degrees());
         SpringFree { time: "s", preload: "N", stiffness: "N/m" } "AB2418" Uncertain, each
             ("The preload spring is free at {:.2} ms: its rings have moved by the {:.0} um that it was compressed by ({preload:.0} N, {stiffness:.2e} N/m), and its rows carry nothing. More preload or a softer spring keeps them pressed.", 1e3 * time, 1e6 * preload / stiffness);
         SpringSolid { time: "s", travel: "m", force: "N" } "AB2419" Uncertain, each
@@ -94,9 +96,9 @@ problem::warnings! {
             ("The contact angle follows the temperatures, and the preload does not: it is that of springs. A rigid one rises as the inner ring warms.");
         FrictionStaysAlike "AB2320" Uncertain, each
             ("No friction of the bearing follows the temperature of its lubricant: bearing.moment.viscosity_points, two temperatures with their viscosities, are not given, or its law knows no viscosity.");
-        PreloadChanges { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, each
+        PreloadChanges { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, each by "smallest_preload"
             ("Unequal temperatures take the preload of the pair from {mounted:.0} N to between {least:.0} N and {most:.0} N at rest. The difference of the rings' temperatures is known within a factor of two; so is this change. Without preload a row is unloaded; a larger one loads and heats both rows without any impact.");
-        PreloadChangesInCoastDown { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, coast_down
+        PreloadChangesInCoastDown { mounted: "N", least: "N", most: "N" } "AB2345" Uncertain, coast_down by "smallest_preload"
             ("During the coast-down unequal temperatures take the preload of the pair from {mounted:.0} N to between {least:.0} N and {most:.0} N at rest. Without preload a row is unloaded, a larger one brakes more: the intervals follow both.");
         LooseRing { time: "s", when: words, seat: text } "AB2321" Uncertain, coast_down
             ("After {when} {seat} has lost its interference to unequal warmth or to its speed: unless its conductance is given it conducts like a gap from there on, and it may creep, which this run does not follow.");

@@ -150,7 +150,7 @@ pub(crate) fn history(parts: &[Part], rows: &[Row]) -> Vec<Column> {
     }
     columns! { table, |row|
         "speed_dependent.moment": "N m", "speed-dependent moment M0 of all bearings" => row.moments[0];
-        "load_dependent.moment": "N m", "load-dependent moment M1 of all bearings" => row.moments[1];
+        "load_dependent.moment": "N m", "load-dependent moment M1 of all bearings; of bearings in space their whole moment" => row.moments[1];
         "windage.moment": "N m", "moment of the gas" => row.moments[2];
         "heat.power": "W", "heat made in all bearings" => row.speed * (row.moments[0] + row.moments[1]);
     }

@@ -17,6 +17,8 @@ use outcome::Warning;
 use problem::warning::Evaluation;
 use scenario::{AuxiliaryBearing, DRAWN_ON, Feedback, Fidelity, Moment, Scenario};
 
+/// Share of the largest load of a ball that one may carry for an instant beyond the bottom of its groove.
+const OF_OPEN_SIDE: f64 = 0.05;
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
@@ -191,6 +193,16 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
             load: over.load,
         };
         list.push((over.load, warning.into()));
+    }
+    let most = context.record(k).largest_inner_load.value;
+    if let Some(open) = own.open_side.filter(|open| open.load > OF_OPEN_SIDE * most) {
+        let warning = SpatialWarning::OpenSide {
+            row: open.row as f64 + 1.0,
+            time: open.time,
+            load: open.load,
+            angle: open.angle,
+        };
+        list.push((open.load, warning.into()));
     }
     for (row, time) in own.unloaded.iter().enumerate() {
         let Some(time) = *time else { continue };

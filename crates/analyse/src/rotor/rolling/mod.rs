@@ -9,10 +9,13 @@
 //! which is exact for unbalance and at critical speeds. Supports and seals that stay act in both.
 //!
 //! Not modelled: the rotor leaving its race (the speeds at which it would are named), friction and the inertia of a race that turns with it, damping across
-//! the load but that of the mount, rings, films and stops, passing of the balls, tilt, acceleration through a critical speed.
+//! the load but that of the mount, rings, films and stops, passing of the balls, tilt but that of bearings in space ([`in_space`]),
+//! acceleration through a critical speed.
 
+mod in_space;
 pub(crate) mod results;
 
+use self::in_space::InSpace;
 use crate::rotor::asked::{Asked, Found};
 use crate::rotor::quantities::undamped;
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
@@ -26,6 +29,7 @@ use scenario::rotor::{FlexibleRotor, Node, Support};
 use scenario::{BearingPlace, Body, Drop, RotorAnalysis, Shaft};
 use simulate::drop::build::auxiliary_bearings;
 use simulate::rotor::RotorModel;
+use std::ops::Range;
 
 /// A rotor in the bottom of its auxiliary bearings.
 pub(crate) struct RollingModel {
@@ -42,9 +46,11 @@ pub(crate) struct RollingModel {
 pub(crate) struct RollingBearing {
     pub constants: AuxiliaryBearingConstants,
     pub springs: Springs,
+    /// Of one in space at the rated speed.
+    pub in_space: Option<InSpace>,
     node: usize,
-    /// Its contact among the supports of the rotor.
-    link: usize,
+    /// Its contact among the supports of the rotor: how it swings across the weight, then the springs along it.
+    link: Range<usize>,
 }
 
 /// What was found.
@@ -82,6 +88,8 @@ impl Peak {
 const FAR: f64 = 0.5;
 /// Step of the load, as a share, by which the stiffness of the balls is found.
 const STEP: f64 = 1e-4;
+/// Speeds at which a bearing in space is computed, at most.
+const SPEEDS: usize = 32;
 /// Steps in which static loads are found, and the share of the weight to which they are.
 const STEPS: usize = 60;
 const EXACT: f64 = 1e-9;
@@ -150,6 +158,13 @@ pub(crate) fn machine_of(analysis: &RotorAnalysis) -> Option<(&Drop, &Shaft)> {
     }
 }
 
+impl RollingBearing {
+    /// Its stiffness against tilt, N m/rad.
+    pub fn tilt(&self) -> Option<f64> {
+        Some(self.in_space?.tilt?.stiffness)
+    }
+}
+
 impl RollingModel {
     /// Of the machine that a rotor belongs to, or why there is none; nothing of a rotor alone.
     pub fn of(analysis: &RotorAnalysis) -> problem::Result<Option<Result<Self, String>>> {
@@ -157,7 +172,7 @@ impl RollingModel {
             return Ok(None);
         };
         let given = auxiliary_bearings(drop)?;
-        let free = after_release(&analysis.rotor);
+        let mut free = after_release(&analysis.rotor);
         let stands = (free.supports.iter()).any(|own| !own.seal && own.at.is_some());
         let why = if drop.gravity.acceleration == 0.0 {
             Some("no weight acts across the shaft, which presses the rotor on none of them")
@@ -171,7 +186,24 @@ impl RollingModel {
         if let Some(why) = why {
             return Ok(Some(Err(why.to_string())));
         }
-        let model = RotorModel::new(&free, analysis.speed)?;
+        let mut model = RotorModel::new(&free, analysis.speed)?;
+        let in_space = in_space(&model, &given, drop, analysis.speed);
+        let at = |place: &BearingPlace| analysis.rotor.nodes[place.node].at;
+        let springs: Vec<Option<[f64; 2]>> = (in_space.iter().zip(&shaft.places))
+            .map(|(own, place)| own.as_ref()?.places(at(place), &free))
+            .collect();
+        if springs.iter().any(Option::is_some) {
+            // both rotors, at rest and in motion, have the same nodes
+            for place in springs.iter().flatten().flatten() {
+                free.nodes.push(Node {
+                    name: format!("spring at {place} m"),
+                    at: *place,
+                    clearance: None,
+                    on: None,
+                });
+            }
+            model = RotorModel::new(&free, analysis.speed)?;
+        }
         let held = analysis.rotor.levitation.as_ref();
         let rested = at_rest((&model, held), given, (drop, shaft));
         Ok(Some(rested.and_then(|(mut bearings, rest)| {
@@ -187,10 +219,10 @@ impl RollingModel {
                 ..analysis.clone()
             };
             let speeds = analysis.speeds();
-            for (bearing, place) in bearings.iter_mut().zip(&shaft.places) {
-                bearing.link = own.rotor.supports.len();
-                let at = analysis.rotor.nodes[place.node].at;
-                carry(&mut own.rotor, bearing, (at, place.on, down), &speeds);
+            for (k, (bearing, place)) in bearings.iter_mut().zip(&shaft.places).enumerate() {
+                bearing.in_space = in_space[k];
+                let places = (at(place), springs[k]);
+                carry(&mut own.rotor, bearing, (places, place.on, down), &speeds);
             }
             Ok(Self {
                 asked: Box::new(Asked::of(&own).map_err(|own| own.found)?),
@@ -272,9 +304,11 @@ impl RollingModel {
 
     /// Amplitudes of the contact force of a row along the weight, N, and of the rotor in the bore across it, m.
     fn amplitudes(&self, bearing: &RollingBearing, own: &Response) -> [f64; 2] {
-        let (link, planes) = (bearing.link, bearing.constants.planes);
-        let swing = along(own.across[link], self.down * C64::i());
-        [along(own.forces[link], self.down) / planes, swing]
+        let (link, planes) = (bearing.link.clone(), bearing.constants.planes);
+        let swing = along(own.across[link.start], self.down * C64::i());
+        let all = link.map(|k| own.forces[k]);
+        let force = all.fold([C64::default(); 2], |[x, y], own| [x + own[0], y + own[1]]);
+        [along(force, self.down) / planes, swing]
     }
 }
 
@@ -289,6 +323,22 @@ fn ranges(steps: &[Step], marks: impl Iterator<Item = bool>) -> Vec<[f64; 2]> {
     marked
         .map(|part| [part[0].0, part[part.len() - 1].0])
         .collect()
+}
+
+/// What the bearings in space are to small motion under equal shares of the weight, at a speed of the rotor, rad/s.
+fn in_space(
+    model: &RotorModel,
+    given: &[AuxiliaryBearingConstants],
+    drop: &Drop,
+    speed: f64,
+) -> Vec<Option<InSpace>> {
+    let weight = rotor::properties(&model.rotor).mass * drop.gravity.acceleration;
+    let load = weight / given.iter().map(|own| own.planes).sum::<f64>();
+    let of = |own: &AuxiliaryBearingConstants| {
+        let contact = contact_stiffness(own.contact.stiffness, own.contact.exponent, load);
+        InSpace::of(own, (load, contact), speed)
+    };
+    given.iter().map(of).collect()
 }
 
 /// The rotor after its release, with places where magnets and sensors stand.
@@ -311,16 +361,18 @@ fn after_release(given: &FlexibleRotor) -> FlexibleRotor {
     free
 }
 
-/// Adds what an auxiliary bearing is to small motion: a support on its race, and the mount of that.
+/// Adds what an auxiliary bearing is to small motion: supports on its race, and the mount of that.
 fn carry(
     rotor: &mut FlexibleRotor,
-    bearing: &RollingBearing,
-    (at, on, down): (f64, Option<usize>, C64),
+    bearing: &mut RollingBearing,
+    ((at, springs_at), on, down): ((f64, Option<[f64; 2]>), Option<usize>, C64),
     speeds: &[f64],
 ) {
     let (own, planes) = (&bearing.constants, bearing.constants.planes);
     let held = own.inner_race.centre_held;
     let race = rotor.housings.len();
+    let on_race = (!held).then_some(race);
+    let first = rotor.supports.len();
     let mut add = |part: &str, at, on, coefficients| {
         rotor.supports.push(Support {
             name: format!("{}{part}", own.label()),
@@ -334,30 +386,49 @@ fn carry(
     let springs = &bearing.springs;
     // of a damper in series with the balls, far below the frequency k/c
     let damping = own.contact.damping * springs.load * (springs.link / springs.contact).powi(2);
-    let link = Coefficients::constant(Block {
-        stiffness: turned(planes * springs.link, planes * springs.across, down),
-        damping: turned(planes * damping, 0.0, down),
-        ..Block::default()
-    });
-    add("", Some(at), (!held).then_some(race), link);
-    if held {
-        return;
-    }
-    let parts = &own.mount_parts;
-    let row = |speed: f64| {
-        // at standstill as of slow motion
-        let frequency = speed.max(1e-3);
-        let mut whole = parts.linear(&own.mount, frequency);
-        if let Some(housing) = &parts.housing {
-            whole = whole.in_series(housing.dynamic_stiffness(frequency));
-        }
-        Block::equal(planes * whole.storage, planes * whole.loss / frequency)
+    let loads = (springs.load, springs.contact);
+    // of one in space over the speed
+    let few = speeds.iter().step_by(speeds.len().div_ceil(SPEEDS).max(1));
+    let shift = |speed: &f64| Some((*speed, InSpace::of(own, loads, *speed)?.shift));
+    let shifts: Vec<(f64, f64)> = few.filter_map(shift).collect();
+    // a share of what acts along the weight, with what acts across it
+    let part = |share: f64, across: f64| {
+        let block = |along: f64| Block {
+            stiffness: turned(planes * share * along, planes * across, down),
+            damping: turned(planes * share * damping, 0.0, down),
+            ..Block::default()
+        };
+        let rows = shifts.iter().map(|(speed, along)| (*speed, block(*along)));
+        let constant = || Coefficients::constant(block(springs.link));
+        Coefficients::table(rows.collect()).unwrap_or_else(constant)
     };
-    let rows = speeds.iter().map(|speed| (*speed, row(*speed)));
-    let mount = Coefficients::table(rows.collect());
-    let mount = mount.unwrap_or_else(|| Coefficients::constant(row(0.0)));
-    add("_mount", None, on, mount);
-    rotor.housings.push(planes * own.mass_on_mount());
+    match springs_at {
+        None => add("", Some(at), on_race, part(1.0, springs.across)),
+        Some([one, other]) => {
+            add("", Some(at), on_race, part(0.0, springs.across));
+            add("_start", Some(one), on_race, part(0.5, 0.0));
+            add("_end", Some(other), on_race, part(0.5, 0.0));
+        }
+    }
+    let mut mount = |coefficients| add("_mount", None, on, coefficients);
+    if !held {
+        let parts = &own.mount_parts;
+        let row = |speed: f64| {
+            // at standstill as of slow motion
+            let frequency = speed.max(1e-3);
+            let mut whole = parts.linear(&own.mount, frequency);
+            if let Some(housing) = &parts.housing {
+                whole = whole.in_series(housing.dynamic_stiffness(frequency));
+            }
+            Block::equal(planes * whole.storage, planes * whole.loss / frequency)
+        };
+        let rows = speeds.iter().map(|speed| (*speed, row(*speed)));
+        let table = Coefficients::table(rows.collect());
+        mount(table.unwrap_or_else(|| Coefficients::constant(row(0.0))));
+        rotor.housings.push(planes * own.mass_on_mount());
+    }
+    let last = rotor.supports.len() - usize::from(!held);
+    bearing.link = first..last;
 }
 
 /// The rotor in the bottom of its bearings: what each row carries, and the displacement of each node. Newton's method over the loads.
@@ -390,7 +461,8 @@ fn at_rest(
         bearings.push(RollingBearing {
             springs: Springs::of(&constants, weight / rows),
             node,
-            link: 0,
+            in_space: None,
+            link: 0..0,
             constants,
         });
     }

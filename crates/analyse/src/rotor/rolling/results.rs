@@ -38,6 +38,7 @@ results! {
         "*.contact_stiffness": number "N/m", CONTACT, "stiffness of the contact about the static load" in rolling_bearings "contact stiffness" => bearing.springs.contact;
         "*.ball_stiffness": number "N/m", BALLS, "stiffness of the balls about the static load" in rolling_bearings "ball stiffness" => bearing.springs.balls.ok_or_else(|| "no load goes through balls".to_string());
         "*.stiffness_along": number "N/m", ALONG, "stiffness along the weight of contact, balls and mount in series at rest" in rolling_bearings "stiffness along the weight" => bearing.springs.along;
+        "*.tilt_stiffness": number "N m/rad", TILT, "stiffness against tilt along the weight of both edges of the landing surface, balls and mount in series at the rated speed" in rolling_bearings "stiffness against tilt" when bearing.tilt().is_some() => bearing.tilt().ok_or_else(String::new);
         "*.stiffness_across": number "N/m", ACROSS, "stiffness across the weight of the rotor that rolls as a pendulum" in rolling_bearings "stiffness across it" => bearing.springs.across;
         "*.largest_force": number "N" headline, FORCE, "largest amplitude of the contact force along the weight during the coast-down, of one row" in rolling_bearings "largest force" => value(&run.largest[0]);
         "*.largest_force_speed": number "rad/s", FORCE, "speed at which it is largest" in rolling_bearings "at" => speed(&run.largest[0]);
@@ -74,6 +75,9 @@ origins! {
     ALONG: law "1/(1/k_contact + 1/k_balls + 1/k_mount)",
         source "crates/analyse/src/rotor/rolling/mod.rs",
         valid "at rest; the race has its mass between link and mount in all other results";
+    TILT: law "4/(k b²) of the edges, (K⁻¹)_θθ of the balls (5 × 5, axis free), 1/k_mount: two springs along the weight have it, with the shift at each speed",
+        source "crates/analyse/src/rotor/rolling/in_space.rs; book/src/theory/rolling.md",
+        valid "a preloaded bearing in space; contact.width is given; springs within the shaft";
     ACROSS: law "N/(c0 + d)",
         source "crates/physics/src/rolling_rotor.rs; book/src/theory/rolling.md",
         valid "small angles; a race that turns with the rotor";
