@@ -5,11 +5,12 @@ use super::rig::{greased_bearing, machine, observe, palmgren, rolling, shared};
 use crate::machines::counting::ALLOCATIONS;
 use crate::machines::settings;
 use model::bearing::{AccelerationLoss, BearingConstants, SteadyMoment};
+use model::system::machine::RotorMachine;
 use model::system::machine::record::Record;
-use model::system::machine::{Machines, RotorMachine};
+use model::system::machine::simulate::{Runs, Shape, Steps, simulate_on};
 use model::system::rig::{Drive, RigConstants, SlidingRotor};
 use model::table::Table;
-use number::{Level, Real, Task};
+use number::Level;
 use physics::moment_curve::MomentCurve;
 use solve::{Ending, Flow, Machine, Observer, Step};
 use std::sync::atomic::AtomicBool;
@@ -29,48 +30,44 @@ impl Observer<RotorMachine> for Bits {
     }
 }
 
-struct Side<'a>(&'a [RotorMachine], f64);
-impl Task for Side<'_> {
-    type Output = Vec<(Ending, Vec<u64>)>;
-    fn run<R: Real>(self) -> Self::Output {
-        let Side(machines, end) = self;
-        let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
-        let machines: Vec<_> = machines.iter().collect();
-        let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
-        let never = AtomicBool::new(false);
-        let settings = settings(end, 1e-4);
-        let endings = solve::run::<R, Machines<R>, _>(
-            &solve::BOGACKI_SHAMPINE,
-            &machines,
-            &starts,
-            &mut seen,
-            &settings,
-            &never,
-        );
-        let seen = seen.into_iter().map(|bits| bits.0);
-        endings.into_iter().zip(seen).collect()
-    }
+/// How machines end, and the bits of their steps.
+fn side(level: Level, shape: Shape, machines: &[RotorMachine], end: f64) -> Vec<(Ending, Bits)> {
+    let starts: Vec<_> = machines.iter().map(RotorMachine::start).collect();
+    let mut seen: Vec<_> = machines.iter().map(|_| Bits::default()).collect();
+    let runs = Runs {
+        machines: &machines.iter().collect::<Vec<_>>(),
+        starts: &starts,
+        settings: settings(end, 1e-4),
+        steps: Steps::Explicit,
+        interrupt: &AtomicBool::new(false),
+    };
+    let mut observers: Vec<&mut dyn Observer<RotorMachine>> = Vec::new();
+    observers.extend(seen.iter_mut().map(|own| own as _));
+    let endings = simulate_on(level, shape, runs, &mut observers);
+    endings.into_iter().zip(seen).collect()
 }
 
 fn same_bits(constants: impl Fn(usize) -> RigConstants, end: f64) {
     let machines: Vec<_> = (0..8)
         .map(|i| RotorMachine::on_rig(constants(i)).expect("can be built"))
         .collect();
-    let bits = |run: &(Ending, Vec<u64>)| -> Vec<u64> {
-        let state = run.0.state.iter().map(|value| value.to_bits());
-        state.chain(run.1.iter().copied()).collect()
+    let bits = |(ending, seen): &(Ending, Bits)| -> Vec<u64> {
+        let state = ending.state.iter().map(|value| value.to_bits());
+        state.chain(seen.0.iter().copied()).collect()
     };
     let expected: Vec<_> = machines
         .iter()
-        .map(|machine| Level::Baseline.run_one(Side(std::slice::from_ref(machine), end)))
+        .map(std::slice::from_ref)
+        .map(|machine| side(Level::Baseline, Shape::Balls, machine, end))
         .map(|run| bits(&run[0]))
         .collect();
     assert!(expected.windows(2).all(|pair| pair[0] != pair[1]));
     for level in Level::available() {
-        let alone = level.run_one(Side(&machines[..1], end));
+        let alone = side(level, Shape::Balls, &machines[..1], end);
         assert!(bits(&alone[0]) == expected[0], "alone, {level:?}");
         for (from, batch) in machines.chunks(level.lanes()).enumerate() {
-            for (lane, run) in level.run_many(Side(batch, end)).iter().enumerate() {
+            let runs = side(level, Shape::Machines, batch, end);
+            for (lane, run) in runs.iter().enumerate() {
                 let which = from * level.lanes() + lane;
                 assert!(bits(run) == expected[which], "lane {lane}, {level:?}");
             }
