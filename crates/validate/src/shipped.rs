@@ -39,26 +39,3 @@ pub(super) const CASES: &[(&str, &str)] = cases![
     "skf_6005_grease",
     "skf_7006_jet",
 ];
-
-#[cfg(test)]
-mod tests {
-    use super::CASES;
-    use std::path::Path;
-
-    #[test]
-    fn every_file_of_the_folder_is_shipped() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("cases");
-        let mut files: Vec<_> = std::fs::read_dir(folder)
-            .unwrap()
-            .map(|entry| entry.unwrap().path())
-            .filter(|path| {
-                path.extension()
-                    .is_some_and(|extension| extension == "toml")
-            })
-            .map(|path| path.file_stem().unwrap().to_string_lossy().into_owned())
-            .collect();
-        files.sort();
-        let shipped: Vec<_> = CASES.iter().map(|(name, _)| name.to_string()).collect();
-        assert_eq!(files, shipped);
-    }
-}

@@ -3,11 +3,13 @@
 //! A closed loop is compared in all coordinates of the rotor and in the reduced basis that runs use, each with the tolerances that
 //! the files give for it: numbers in the text `accept`. Complex numbers are compared by their distance.
 
+mod accept;
 pub(super) mod machine;
 
 use super::compare::{Refusal, Worst, part, rows_of, told};
 use super::json::number;
 use super::report::{Row, Tolerance};
+use accept::{Accept, REDUCED, WHOLE};
 use levitation::response::{equilibrium, impulse, start, unbalance};
 use levitation::sensitivity::{Axes, Band, Sensitivity};
 use levitation::{C64, ClosedLoop, ZERO, weight};
@@ -24,91 +26,6 @@ pub(super) fn rows(value: &Value, path: &Path) -> Option<Vec<Row>> {
     let top = value.as_object()?;
     let has = |keys: &[&str]| keys.iter().all(|key| top.contains_key(*key));
     has(&["magnets", "results", "beta_external"]).then(|| rows_of(closed_loop(value, path)))
-}
-
-/// The tolerances of the files for a basis.
-#[derive(Clone, Copy)]
-struct Accept {
-    name: &'static str,
-    /// Free modes up to this, rad/s.
-    cut: f64,
-    eigenvalues: f64,
-    /// Of roots of filters, `far` from the origin, 1/s.
-    filters: f64,
-    far: f64,
-    sensitivity: f64,
-    peaks: f64,
-    unbalance: f64,
-    impulse: f64,
-    early_impulse: f64,
-}
-
-const WHOLE: Accept = Accept {
-    name: "all coordinates",
-    cut: f64::INFINITY,
-    eigenvalues: 1e-6,
-    filters: 1e-6,
-    far: 2.5e4,
-    sensitivity: 1e-6,
-    peaks: 1e-5,
-    unbalance: 1e-6,
-    impulse: 1e-6,
-    early_impulse: 1e-6,
-};
-const REDUCED: Accept = Accept {
-    name: "free modes to 6e4 rad/s and residual flexibility",
-    cut: 6e4,
-    eigenvalues: 1e-5,
-    filters: 2e-4,
-    far: 2.5e4,
-    sensitivity: 4e-5,
-    peaks: 4e-5,
-    unbalance: 2e-5,
-    impulse: 1e-3,
-    early_impulse: 5e-3,
-};
-
-impl Accept {
-    /// With the numbers that the text `accept` of a file gives: what it says of the reduced rotor begins at "free modes".
-    fn of(self, file: &Value) -> Self {
-        let text = file["accept"].as_str().unwrap_or_default();
-        let (whole, reduced) = text.split_once("free modes").unwrap_or((text, ""));
-        let (own, peaks) = match self.cut.is_finite() {
-            true => (reduced, "(reduced"),
-            false => (whole, "Peaks of |S|"),
-        };
-        let after = |text: &str, word: &str, usual: f64| {
-            let numbers = text.split_once(word).map(|(_, rest)| numbers(rest));
-            numbers.and_then(|mut all| all.next()).unwrap_or(usual)
-        };
-        // "2e-4 for the two filter roots", or "filter roots 2e-4"
-        let near = |word: &str, usual: f64| {
-            let clause = own.split_once(word).map_or("", |(text, _)| text);
-            let clause = clause.rsplit([',', ';']).next().unwrap_or_default();
-            let share = numbers(clause).filter(|number| *number < 1.0).last();
-            share.unwrap_or_else(|| after(own, word, usual))
-        };
-        let eigenvalues = after(own, "eigenvalues", self.eigenvalues);
-        let impulse = after(own, "impulse response", self.impulse);
-        Accept {
-            eigenvalues,
-            filters: near("filter root", self.filters.max(eigenvalues)),
-            far: after(reduced, "|lambda| <", self.far),
-            sensitivity: after(own, "|S|", self.sensitivity),
-            peaks: after(text, peaks, self.peaks),
-            unbalance: after(own, "unbalance", self.unbalance),
-            impulse,
-            early_impulse: near("before", self.early_impulse.max(impulse)),
-            ..self
-        }
-    }
-}
-
-/// The numbers of a text.
-fn numbers(text: &str) -> impl Iterator<Item = f64> + '_ {
-    let words = text.split(|letter: char| letter.is_whitespace() || "(),;:".contains(letter));
-    let numbers = words.filter_map(|word| word.trim_end_matches('.').parse().ok());
-    numbers.filter(|number: &f64| number.is_finite())
 }
 
 /// Adds a complex number, compared by its distance.
@@ -457,92 +374,4 @@ pub(super) fn start_of_drop(value: &Value, path: &Path) -> Result<Vec<Row>, Refu
         add(&mut worst, "current at the start", "A", pair, allowed, why);
     }
     Ok(worst.into_rows())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::super::report::Verdict;
-    use super::*;
-
-    #[test]
-    fn the_text_of_a_file_gives_its_tolerances() {
-        let text = "unreduced rotor: eigenvalues |dlambda| <= 3e-6 |lambda| + 1e-5 1/s, |S| samples 2e-6 relative, unbalance and \
-                    impulse response 4e-6 of the largest; free modes to 6e4 rad/s (18 coordinates): eigenvalues 2e-5 for |lambda| < 2e4 \
-                    and 1e-3 for the two nearly double filter roots near -26 200, |S| 5e-5, unbalance response 6e-5, impulse response \
-                    7e-3 from t = 1 ms on, 8e-3 before. Peaks of |S| 9e-5 (reduced 1e-4), their frequency 1e-4";
-        let file = serde_json::json!({ "accept": text });
-        let shown = |of: Accept| {
-            let (modes, peaks) = (
-                [of.eigenvalues, of.filters, of.far],
-                [of.sensitivity, of.peaks],
-            );
-            (modes, peaks, [of.unbalance, of.impulse, of.early_impulse])
-        };
-        let whole = ([3e-6, 3e-6, 2e4], [2e-6, 9e-5], [4e-6; 3]);
-        assert_eq!(shown(WHOLE.of(&file)), whole);
-        let reduced = ([2e-5, 1e-3, 2e4], [5e-5, 1e-4], [6e-5, 7e-3, 8e-3]);
-        assert_eq!(shown(REDUCED.of(&file)), reduced);
-        let after = serde_json::json!({"accept": "; free modes: eigenvalues 1e-5, filter roots 1e-3 |lambda|"});
-        assert_eq!(REDUCED.of(&after).filters, 1e-3);
-        // what a file does not say is as usual
-        assert_eq!(shown(REDUCED.of(&Value::Null)), shown(REDUCED));
-    }
-    #[test]
-    fn both_parts_of_a_complex_number_count_alike() {
-        let wanted = C64::new(-2.6e4, 3.0);
-        for (off, passes) in [
-            (C64::new(0.0, 9.9), true),
-            (C64::new(9.9, 0.0), true),
-            (C64::new(8.0, 8.0), false),
-        ] {
-            let mut worst = Worst::default();
-            add(&mut worst, "root", "1/s", (wanted + off, wanted), 10.0, "");
-            let row = worst.into_rows().remove(0);
-            assert_eq!(row.verdict == Verdict::Pass, passes, "{off}");
-        }
-    }
-
-    fn reference(name: &str) -> (Value, std::path::PathBuf) {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../validation/cases/reference");
-        let path = folder.join(format!("{name}.json"));
-        let text = std::fs::read_to_string(&path).unwrap();
-        (serde_json::from_str(&text).unwrap(), path)
-    }
-    fn failed(rows: &[Row]) -> Vec<&str> {
-        let failed = rows.iter().filter(|row| row.verdict == Verdict::Fail);
-        failed.map(|row| row.quantity.as_str()).collect()
-    }
-
-    #[test]
-    fn the_levitated_rotor_passes_and_a_changed_gain_does_not() {
-        let (mut file, path) = reference("machine_levitated");
-        // one speed: the others are compared by `auxbear validate`
-        file["results"].as_array_mut().unwrap().drain(..2);
-        let found = rows(&file, &path).unwrap();
-        assert_eq!(failed(&found), Vec::<&str>::new());
-        assert!(found.len() > 20, "{}", found.len());
-        file["magnets"][0]["ks"] = 1.6001e5.into();
-        file.as_object_mut().unwrap().remove("impulse_response");
-        let failed_now = rows(&file, &path).unwrap();
-        assert!(failed(&failed_now).len() > 5);
-    }
-
-    #[test]
-    fn the_start_of_a_drop_passes_and_what_is_wrong_with_a_file_is_told() {
-        let (mut file, path) = reference("machine_drop_flexible");
-        let found = start_of_drop(&file, &path).unwrap();
-        assert_eq!(failed(&found), Vec::<&str>::new());
-        file["magnets"][0]["sensor_node"] = 53.into();
-        let refused = |path: &Path| match start_of_drop(&file, path) {
-            Err(Refusal::Wrong(why)) => why,
-            other => panic!("{other:?}"),
-        };
-        let wrong = refused(&path);
-        assert!(wrong.contains("node 53, of 53 nodes"), "{wrong}");
-        let lost = refused(Path::new("/nowhere/case.json"));
-        assert!(
-            lost.contains("ross_amb_rotor_freefree.json is neither beside"),
-            "{lost}"
-        );
-    }
 }

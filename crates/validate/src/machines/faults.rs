@@ -529,28 +529,3 @@ fn currents(wanted: &Value, (control, coils): &(f64, [f64; 2])) -> Vec<[f64; 2]>
         None => vec![[wanted.as_f64().unwrap_or(f64::NAN), *control]],
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::report::Verdict;
-
-    fn file() -> (Value, std::path::PathBuf) {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR"))
-            .join("../../validation/cases/reference/faults_runs.json");
-        let text = std::fs::read_to_string(&path).unwrap();
-        (serde_json::from_str(&text).unwrap(), path)
-    }
-
-    #[test]
-    fn what_happens_to_magnets_is_that_of_the_reference() {
-        let (file, path) = file();
-        let rows = rows(&file, &path).unwrap();
-        let bad: Vec<_> = rows
-            .iter()
-            .filter(|row| row.verdict == Verdict::Fail)
-            .collect();
-        assert!(bad.is_empty(), "{bad:#?}");
-        assert!(rows.len() > 100, "{}", rows.len());
-    }
-}
