@@ -224,7 +224,8 @@ function machineTiles(run) {
 
 function verdict(run) {
   const peak = peakContact(run);
-  const when = peak && `${engineeringText(peak.peak_time_s - releaseOf(run), "s", 4)} after ${countedFrom(run)}`;
+  const late = peak && peak.peak_time_s - releaseOf(run);
+  const when = peak && `${engineeringText(Math.abs(late), "s", 4)} ${late < 0 ? "before" : "after"} ${countedFrom(run)}`;
   return element("div", { class: "tiles" }, tilesOf(run, "tile", { "Peak contact force": [when] }), whirlTile(run));
 }
 
