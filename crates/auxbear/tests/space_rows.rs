@@ -1,0 +1,78 @@
+//! What rows of bearings in space carry, and what resists in them.
+
+use crate::machine::ran;
+use crate::outcomes::number;
+use auxbear::outcome::{Value, Verdict};
+
+const FLYWHEEL: &str = include_str!("../../../scenarios/vertical_flywheel.toml");
+
+/// The weight of an upright rotor goes towards the start of its shaft; a single row takes thrust towards the end unless it is turned round.
+#[test]
+fn thrust_on_the_open_side_of_a_row_has_no_verdict() {
+    let limited = format!(
+        "{FLYWHEEL}\n[[limit]]\nquantity = \"lower.peak_hertz_pressure\"\nmost = \"9 GPa\"\n[[limit]]\nwarning = \"AB2412\"\n"
+    )
+    .replacen("arrangement = \"DB\"", "arrangement = \"single\"", 1)
+    .replacen("axial_preload = \"90 N\"", "", 1);
+    let run = |side: &str| {
+        let side = format!("auxiliary_bearing.lower.bearing.thrust_side={side}");
+        ran(&limited, &[side.as_str(), "run.duration=20 ms"])
+    };
+    let warned =
+        |run: &auxbear::Outcome, code: &str| run.warnings.iter().any(|own| own.code == code);
+    let verdicts = |run: &auxbear::Outcome| -> Vec<Verdict> {
+        run.limits.iter().map(|own| own.verdict).collect()
+    };
+    let (right, wrong) = (run("start"), run("end"));
+    assert!(!warned(&right, "AB2420") && warned(&wrong, "AB2420"));
+    // without the height of its shoulders nobody knows whether a contact leaves its groove
+    assert!(warned(&right, "AB2415"));
+    assert_eq!(verdicts(&right), [Verdict::Pass, Verdict::Undecided]);
+    assert_eq!(verdicts(&wrong), [Verdict::Undecided, Verdict::Undecided]);
+}
+
+/// Law, heat and lubricant of a pair, and that its rotor slows down.
+#[test]
+fn the_drag_of_the_lubricant_brakes_a_pair_and_heats_it() {
+    const GREASED: [&str; 5] = [
+        "bearing.moment.law=palmgren",
+        "bearing.moment.f0=2",
+        "bearing.moment.f1_factor=0.001",
+        "bearing.moment.f1_exponent=0.33",
+        "bearing.moment.viscosity_points=[[\"40 degC\", \"40 mm^2/s\"], [\"100 degC\", \"6 mm^2/s\"]]",
+    ];
+    let run = |greased: &[&str], more: &[&str]| {
+        let sets: Vec<String> = (greased
+            .iter()
+            .chain(&["bearing.moment.temperature=30 degC"]))
+        .take(if greased.is_empty() { 0 } else { usize::MAX })
+        .chain(&["heat.network=on", "heat.feedback=viscosity"])
+        .map(|set| format!("auxiliary_bearing.lower.{set}"))
+        .collect();
+        let all: Vec<&str> = sets
+            .iter()
+            .map(String::as_str)
+            .chain(more.iter().copied())
+            .collect();
+        ran(FLYWHEEL, &all)
+    };
+    let short = ["run.duration=60 ms"];
+    let [dry, greased] = [run(&[], &short), run(&GREASED, &short)];
+    assert!(number(&greased, "energy_residual").abs() < 1e-6);
+    assert!(number(&greased, "lower.relative_heat_residual") < 1e-9);
+    let heat = |run: &auxbear::Outcome| {
+        let by_node = run.quantity("lower.steady_moment_heat_by_node");
+        by_node.map_or(0.0, |own| match &own.value {
+            Value::List(list) => list.iter().sum(),
+            _ => 0.0,
+        })
+    };
+    assert!(heat(&greased) > 1.0, "{}", heat(&greased));
+    assert_eq!(heat(&dry), 0.0);
+    let speed = |run: &auxbear::Outcome| *run.column("rotor.speed").unwrap().values.last().unwrap();
+    assert!(speed(&greased) < speed(&dry));
+    let warned =
+        |run: &auxbear::Outcome, code: &str| run.warnings.iter().any(|own| own.code == code);
+    // the preload is no load that its law does not see
+    assert!(!warned(&greased, "AB1081"));
+}
