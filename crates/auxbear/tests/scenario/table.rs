@@ -396,7 +396,7 @@ fn unlike_any_other(path: &str, kind: Kind, range: Range, example: &str) -> Opti
                 "bearing.pitch_diameter" => 0.0367891,
                 "bearing.ball_diameter" => 0.00612345,
                 "bearing.moment.bore_diameter" | "bearing.fits.bore_diameter" => 0.0234567,
-                "bearing.fits.outer_diameter" => 0.0512345,
+                "bearing.fits.outer_diameter" | "bearing.row_spacing" => 0.0512345,
                 "bearing.fits.housing_outer_diameter" => 0.0812345,
                 "bearing.cage.land_diameter" => 0.0401234,
                 "contact.face_radius" => 0.0143210,
