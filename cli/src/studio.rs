@@ -24,7 +24,15 @@ pub fn perform(wish: &Wish) -> Result<Exit> {
         say: Box::new(console::report),
         date: || Utc::now().date_naive().to_string(),
     };
+    let folder = settings.folder;
+    let is_new = !folder.exists();
     let studio = Arc::new(Studio::open(settings)?);
+    if is_new {
+        console::report(&format!(
+            "{} was not there: an empty folder was made",
+            folder.display()
+        ));
+    }
     let own = studio.clone();
     let stopped = Arc::new(AtomicBool::new(false));
     let computing = stopped.clone();

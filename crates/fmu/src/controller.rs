@@ -354,12 +354,10 @@ impl Unit {
                 .source()
                 .map_or(String::new(), |why| format!(": {why}"));
             let python = match why.contains("_Py") {
-                true => {
-                    "; it was made with Python: run it by the package of this program for Python"
-                }
+                true => "made with Python, run it with the Python package auxbear: ",
                 false => "",
             };
-            format!("{error}{why}{python}")
+            format!("{python}{error}{why}")
         })
     }
 

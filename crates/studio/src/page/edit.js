@@ -95,6 +95,7 @@ async function editorOf(name, text, hash) {
       editor.mark(line, `Line ${line}: ${message.split("\n")[0]}`);
       shown({ message: `The text is not valid TOML from line ${line} on; fields wait until it is, and keep what they have.`, line });
       if (forms) forms.wait();
+      for (const own of [drawing, loop]) own.classList.add("old");
       return;
     }
     found = answer;
@@ -196,6 +197,7 @@ async function editorOf(name, text, hash) {
   async function save() {
     await settled();
     if (!asks.hidden) throw new Refused(`${name} was changed outside: choose first which lines to keep`);
+    if (waiting.length) throw new Refused("Not saved: a field waits until the text is valid");
     const now = past.now;
     const answer = await ask("/api/save", { name, text: now, hash: saved.hash });
     if (answer.theirs === undefined) {
