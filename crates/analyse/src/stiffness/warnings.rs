@@ -3,6 +3,7 @@
 use super::answer::Ball;
 use super::asked::Asked;
 use model::spatial::PreloadSpring;
+use model::spatial::record::OPEN;
 use outcome::Warning;
 use physics::groove::reaches_shoulder;
 
@@ -48,9 +49,6 @@ pub(super) fn of_spring(
 const STATIC_PRESSURE: f64 = 4.2e9;
 /// Contact angle up to which the constant of the contact holds to 1 %, rad.
 const LARGEST_ANGLE: f64 = std::f64::consts::FRAC_PI_4;
-
-/// Contact angle beyond which a ball is on the other side of the groove's bottom, rad.
-const OPEN: f64 = 0.05;
 
 /// Rows of balls.
 pub(super) struct Rows<'a>(pub &'a [Vec<Ball>]);

@@ -39,7 +39,7 @@ pub struct OpenSide {
 }
 
 /// Contact angle beyond which a ball of a row with an angle is on the other side of the groove's bottom, rad.
-const OPEN: f64 = 0.05;
+pub const OPEN: f64 = 0.05;
 
 /// Everything kept of a bearing in space.
 #[derive(Clone, Debug, PartialEq)]

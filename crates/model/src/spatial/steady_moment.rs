@@ -7,7 +7,7 @@
 //!   rolling couples  m   = w (r/R)/(1+s) M1 tanh(Δ_x/ω_r)  at each race    on the ball +m t_x, on the ring the opposite
 //!   s = r cos α/R,  R = ρ - r cos α,  α at rest
 //! ```
-//! Why these arms. Of a row that rolls v_t/d = Ω/(2(1+s)), Δ_x,o = Ω R/(2r), -Δ_x,i = Ω R(1+2s)/(2r), wherever the axis of the ball's
+//! Why these arms. Of a row that rolls v_t/d = Ω/(2(1+s)), -Δ_x,o = Ω R/(2r), Δ_x,i = Ω R(1+2s)/(2r), wherever the axis of the ball's
 //! spin stands: the power of the pairs is then M Ω. A couple about the ring's axis instead would miss a part of M that depends on that.
 //!
 //! Laws of M1 were measured with the spin and the curvature of the contacts in it, which are computed here: M1 is taken
