@@ -312,3 +312,25 @@ fn wrong_input_is_one_message() {
     refused(&["--axial", "1e8 N"], &["loads and speed"]);
     call(&place, &["6o05", "--axial", "1 N"]).refused(&["\"6o05\"", "\"6005\""]);
 }
+
+/// Rounding in the places of balls is no imbalance: at rest each of these has an equilibrium, and the spring its preload and a little more.
+#[test]
+fn a_spring_balances_its_rows_at_rest_under_any_load() {
+    let place = Place::new();
+    for name in ["7010 C DB", "7010 AC DB", "7007 C DB"] {
+        for axial in [100.0, 200.0, 500.0, 1000.0, -200.0, -1000.0] {
+            let axial = format!("--axial={axial} N");
+            let words = [
+                name,
+                "--preload",
+                "240 N",
+                "--preload-spring",
+                "1e6 N/m",
+                &axial,
+            ];
+            let found = json(&place, &words);
+            let force = found["spring_force"].as_f64().unwrap();
+            assert!((200.0..1100.0).contains(&force), "{name} {axial}: {force}");
+        }
+    }
+}

@@ -423,6 +423,8 @@ fn a_spring_keeps_a_row_pressed_that_a_distance_would_free() {
             .map(|set| format!("auxiliary_bearing.lower.{set}"));
         refused(&sets.each_ref().map(String::as_str), needed);
     }
+    let idle = "auxiliary_bearing.lower.bearing.preload_spring_travel=0.1 mm";
+    refused(&[idle], "preload_spring_stiffness is needed beside it");
 }
 
 #[test]

@@ -1,10 +1,16 @@
 //! What rows of bearings in space carry, and what resists in them.
 
+use crate::machine::parsed;
 use crate::machine::ran;
 use crate::outcomes::number;
-use auxbear::outcome::{Value, Verdict};
+use auxbear::outcome::{Outcome, Value, Verdict};
 
+const REVERSAL: &str = include_str!("../../../scenarios/thrust_reversal.toml");
 const FLYWHEEL: &str = include_str!("../../../scenarios/vertical_flywheel.toml");
+
+fn warned(run: &Outcome, code: &str) -> bool {
+    run.warnings.iter().any(|own| own.code == code)
+}
 
 /// The weight of an upright rotor goes towards the start of its shaft; a single row takes thrust towards the end unless it is turned round.
 #[test]
@@ -18,11 +24,8 @@ fn thrust_on_the_open_side_of_a_row_has_no_verdict() {
         let side = format!("auxiliary_bearing.lower.bearing.thrust_side={side}");
         ran(&limited, &[side.as_str(), "run.duration=20 ms"])
     };
-    let warned =
-        |run: &auxbear::Outcome, code: &str| run.warnings.iter().any(|own| own.code == code);
-    let verdicts = |run: &auxbear::Outcome| -> Vec<Verdict> {
-        run.limits.iter().map(|own| own.verdict).collect()
-    };
+    let verdicts =
+        |run: &Outcome| -> Vec<Verdict> { run.limits.iter().map(|own| own.verdict).collect() };
     let (right, wrong) = (run("start"), run("end"));
     assert!(!warned(&right, "AB2420") && warned(&wrong, "AB2420"));
     // without the height of its shoulders nobody knows whether a contact leaves its groove
@@ -60,7 +63,7 @@ fn the_drag_of_the_lubricant_brakes_a_pair_and_heats_it() {
     let [dry, greased] = [run(&[], &short), run(&GREASED, &short)];
     assert!(number(&greased, "energy_residual").abs() < 1e-6);
     assert!(number(&greased, "lower.relative_heat_residual") < 1e-9);
-    let heat = |run: &auxbear::Outcome| {
+    let heat = |run: &Outcome| {
         let by_node = run.quantity("lower.steady_moment_heat_by_node");
         by_node.map_or(0.0, |own| match &own.value {
             Value::List(list) => list.iter().sum(),
@@ -69,10 +72,59 @@ fn the_drag_of_the_lubricant_brakes_a_pair_and_heats_it() {
     };
     assert!(heat(&greased) > 1.0, "{}", heat(&greased));
     assert_eq!(heat(&dry), 0.0);
-    let speed = |run: &auxbear::Outcome| *run.column("rotor.speed").unwrap().values.last().unwrap();
+    let speed = |run: &Outcome| *run.column("rotor.speed").unwrap().values.last().unwrap();
     assert!(speed(&greased) < speed(&dry));
-    let warned =
-        |run: &auxbear::Outcome, code: &str| run.warnings.iter().any(|own| own.code == code);
     // the preload is no load that its law does not see
     assert!(!warned(&greased, "AB1081"));
+}
+
+/// Thrust to a side without a shoulder: the rotor flies out, and nothing that its bearings bear is a verdict.
+#[test]
+fn a_rotor_that_leaves_its_bearings_has_no_verdict() {
+    let without = |gap: &str| {
+        let kept = REVERSAL.lines().filter(|line| !line.starts_with(gap));
+        let text = kept.collect::<Vec<_>>().join("\n");
+        format!(
+            "{text}\n[[limit]]\nquantity = \"locating.peak_hertz_pressure\"\nmost = \"9 GPa\"\n"
+        )
+    };
+    let limits = |run: &Outcome| run.limits.last().map(|own| own.verdict);
+    let open = ran(&without("gap_to_start"), &["run.duration=60 ms"]);
+    assert!(warned(&open, "AB2421") && !warned(&open, "AB2413"));
+    assert_eq!(limits(&open), Some(Verdict::Undecided));
+    let shut = ran(&without("none"), &["run.duration=60 ms"]);
+    assert!(!warned(&shut, "AB2421"));
+    assert_eq!(limits(&shut), Some(Verdict::Pass));
+    let far = "auxiliary_bearing.locating.contact.gap_to_end=0.2 m";
+    let refused = parsed(REVERSAL, &[far]).err().unwrap().to_string();
+    assert!(refused.contains("diameter of a ball"), "{refused}");
+}
+
+/// A row that carries nothing takes nothing from the life of the other, over a coast-down either.
+#[test]
+fn an_idle_row_lengthens_no_life() {
+    let sets = [
+        "heat.network=on",
+        "heat.feedback=none",
+        "run.until=standstill",
+        "run.accuracy=screening",
+        "run.output_interval=10 ms",
+        "rotor.speed=1500 rpm",
+        "run.duration=0.3 s",
+        "coast_down.longest=2 s",
+        "auxiliary_bearing.upper.bearing.fidelity=spatial",
+        "auxiliary_bearing.upper.bearing.arrangement=DB",
+    ];
+    let alone = FLYWHEEL
+        .replacen("arrangement = \"DB\"", "arrangement = \"single\"", 1)
+        .replacen("axial_preload = \"90 N\"", "thrust_side = \"start\"", 1);
+    let each_turn = [FLYWHEEL, &alone].map(|text| {
+        let run = ran(text, &sets);
+        assert!(warned(&run, "AB2422") && warned(&run, "AB2315"));
+        let counted = run.quantity("lower.drops_until_ten_percent_fail").unwrap();
+        assert!(counted.value.why_absent().is_some());
+        number(&run, "lower.coast_down.life_share") / number(&run, "coast_down.turns")
+    });
+    let ratio = each_turn[0] / each_turn[1];
+    assert!((0.95..1.1).contains(&ratio), "{ratio}");
 }

@@ -33,7 +33,7 @@ use std::collections::BTreeSet;
 use units::{Dimension, Unit};
 
 /// Warnings of runs that qualify no machine, and what is said of them instead of a verdict.
-const OF_NO_MACHINE: [(&str, &str); 2] = [
+const OF_NO_MACHINE: [(&str, &str); 5] = [
     (
         NO_QUALIFICATION.code,
         "no verdict where weight acts along the shaft: that motion and its force are not in this run",
@@ -41,6 +41,18 @@ const OF_NO_MACHINE: [(&str, &str); 2] = [
     (
         "AB2420",
         "no verdict where a row carries thrust on its open side: no such bearing holds together",
+    ),
+    (
+        "AB2421",
+        "no verdict where the rotor leaves its bearings along the axis",
+    ),
+    (
+        "AB2315",
+        "no verdict where the rotor still turns at the end of its coast-down: what comes then is not in this run",
+    ),
+    (
+        "AB2422",
+        "no verdict of a coast-down without the friction moment of its bearings: too long, and too cool",
     ),
 ];
 /// Names of results that a message lists.

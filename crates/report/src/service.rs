@@ -17,6 +17,7 @@
 
 use super::directory::read;
 use model::system::layout::of_part;
+use outcome::limits::of_no_machine;
 use physics::life::{add_points, bearing_damage, mean_damage, repetitions, survival};
 use problem::{Code, Problem, Result};
 use scenario::several::{PLANES, path_of};
@@ -120,6 +121,16 @@ pub fn service(occasions: &[Occasion]) -> Result<Service> {
             let (code, path) = (Code::Conflict, run.directory);
             let needed = "a drop that ended as planned is needed";
             let found = "a run that is not complete";
+            return Err(Problem::at_path(code, path, found, needed));
+        }
+        let warnings = run.summary["warnings"].as_array();
+        let warned =
+            |code: &str| warnings.is_some_and(|own| own.iter().any(|one| one["code"] == code));
+        if let Some(why) = of_no_machine(warned) {
+            let (code, path) = (Code::Conflict, run.directory);
+            let found = format!("a run that qualifies no machine: {why}");
+            let needed =
+                "a drop of a machine that holds is needed, to its end or to the standstill";
             return Err(Problem::at_path(code, path, found, needed));
         }
         if run.bearings() != bearings {

@@ -322,3 +322,17 @@ fn a_rotor_that_nothing_brakes_is_said_to_turn_on() {
     assert!(run.stop.reason == "still turning" && run.stop.complete());
     assert_eq!(value(&run, "stop_time"), None);
 }
+
+#[test]
+fn a_stop_speed_above_a_crawl_is_no_standstill() {
+    let run = outcome(&["coast_down.stop_speed=100 rad/s"]);
+    assert!(run.stop.reason == "still turning" && has(&run, "AB2315"));
+    assert!(
+        run.stop.text.contains("still turns with 100.0000 rad/s"),
+        "{}",
+        run.stop.text
+    );
+    for absent in ["stop_time", "runs_until_ten_percent_fail"] {
+        assert_eq!(value(&run, absent), None, "{absent}");
+    }
+}

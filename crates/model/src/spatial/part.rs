@@ -64,6 +64,8 @@ pub struct SpatialBearing {
 
 /// Among the states of a body: that of its turning about the axis of the frame.
 pub const SPIN: usize = BODY_STATES - 1;
+/// A preload that is rounding, N: rows without one just touch.
+const LEAST_PRELOAD: f64 = 1e-6;
 
 impl SpatialBearing {
     /// Number of balls of all rows.
@@ -88,7 +90,7 @@ impl SpatialBearing {
     /// where no preload presses its rows, or no equilibrium is found.
     pub fn preloaded(&self, load: f64, speed: f64) -> Option<Equilibrium> {
         let pressed: Vec<_> = self.rows.iter().map(|row| (row.balls, row.ball)).collect();
-        if preload_at_rest(&pressed, self.spring.as_ref()) <= 0.0 {
+        if preload_at_rest(&pressed, self.spring.as_ref()) < LEAST_PRELOAD {
             return None;
         }
         let rows = pressed.into_iter().map(|(balls, ball)| StaticRow {

@@ -182,6 +182,9 @@ const RANGES = [
   ["AB2412", "contact over the shoulder of its groove"],
   ["AB2416", "shoulder and face so hot that steel changes"],
   ["AB2413", "nothing stops the rotor along its axis"],
+  ["AB2421", "the rotor leaves its bearings along its axis"],
+  ["AB2420", "thrust on the open side of a row"],
+  ["AB2422", "coast-down without a friction moment"],
 ];
 
 function rangeTile(run) {

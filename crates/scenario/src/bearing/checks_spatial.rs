@@ -23,6 +23,13 @@ const OF_SPACE: [&str; 8] = [
     "mount.tilt_stiffness",
 ];
 
+/// Keys that only a preload spring has.
+const OF_SPRING: [&str; 3] = [
+    "bearing.preload_spring_side",
+    "bearing.preload_spring_travel",
+    "bearing.preload_spring_mass",
+];
+
 impl Context<'_> {
     /// What is not computed of a bearing in space, and what its rows need.
     pub fn spatial(&self, bearing: &Bearing) -> Check {
@@ -62,6 +69,14 @@ impl Context<'_> {
             let needed =
                 "less than the radius of a ball is needed: no ball comes into a deeper groove";
             return refuse("bearing.shoulder_height", needed);
+        }
+        if let (None, Some(key)) = (
+            own.spring,
+            OF_SPRING.into_iter().find(|key| self.values.is_given(key)),
+        ) {
+            let found = "a key that has no effect";
+            let needed = "bearing.preload_spring_stiffness is needed beside it: without a spring rows are pressed by a distance";
+            return self.refuse(Code::UnusedKey, key, found, needed);
         }
         let arrangement = "bearing.arrangement";
         let named = self
@@ -152,6 +167,18 @@ impl Context<'_> {
                 1e3 * ring.end
             );
             return self.refuse(Code::OutOfRange, "contact.face_radius", found, needed);
+        }
+        let ball = (part.bearing.as_ref()).map_or(f64::INFINITY, |own| own.ball_diameter);
+        let faces = &part.contact.faces;
+        let gaps = OF_SPACE
+            .into_iter()
+            .zip([faces.gap_to_end, faces.gap_to_start]);
+        if let Some((gap, _)) = gaps
+            .into_iter()
+            .find(|(_, gap)| gap.is_some_and(|gap| gap >= ball))
+        {
+            let needed = "less than the diameter of a ball is needed: a rotor that moves farther along its axis leaves its bearings";
+            return refuse(gap, needed);
         }
         let spring = (part.bearing.as_ref()).and_then(|own| own.spatial?.spring);
         if let Some(spring) = spring {

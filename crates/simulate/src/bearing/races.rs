@@ -70,7 +70,7 @@ pub(crate) struct Life {
     pub with_lubricant: Result<f64, String>,
     /// At the points of both rings, with that factor where it is known.
     pub points: [Vec<f64>; 2],
-    /// Whether the run ended as planned, so that this is all that it takes.
+    /// Whether the run went on to its end, or to the standstill, so that this is all that it takes.
     pub is_all: bool,
 }
 
@@ -166,10 +166,9 @@ fn drops(share: f64, survival: f64) -> Result<f64, String> {
 }
 
 /// Why a run that did not end as planned has no number of drops: what it takes of a bearing is not all known.
-const NOT_WHOLE: &str =
-    "the run did not end as planned: what one takes is not all known, and may be the whole bearing";
+const NOT_WHOLE: &str = "the run did not go on to its end, or to the standstill: what one takes is not all known, and may be the whole bearing";
 
-/// Takes the numbers of drops from a run that did not end as planned.
+/// Takes the numbers of drops from a run that did not go on to its end or to the standstill.
 pub(crate) fn without_count(list: &mut [Quantity]) {
     let of_drops = |name: &str| DROPS_UNTIL.iter().any(|(known, _)| name.ends_with(known));
     for quantity in list.iter_mut().filter(|quantity| of_drops(&quantity.name)) {

@@ -63,6 +63,10 @@ problem::warnings! {
             ("Where shoulder and face rub, their surfaces warm by {rise:.0} K in the mean ({:.2} ms), edges that touch first by far more: steel softens and transforms there, the surfaces may smear or seize, and the friction coefficient of this run no longer holds.", 1e3 * time);
         NoThrust { moved: "m" } "AB2413" Invalid, each
             ("No bearing in space has a shoulder in its way (contact.gap_to_start, contact.gap_to_end): nothing stops the rotor along its axis, and it has moved by {:.2} mm.", 1e3 * moved);
+        Leaves { moved: "m", key: words } "AB2421" Destroys, each
+            ("Nothing stops the rotor along its axis in the direction in which it moves ({key} is not given): it has moved by {:.2} mm, farther than any rebound, and leaves its bearings. Forces and lives are not those of a machine that is held.", 1e3 * moved);
+        NoFriction "AB2422" Invalid, coast_down
+            ("The rotor coasts down on a bearing in space without a friction moment (bearing.moment): only slip and spin of its contacts brake it there. The coast-down comes out too long, often many times, and all temperatures too low.");
         LeavesOut { left: words } "AB2414" Uncertain
             ("Of this bearing in space are not followed: {left}.");
         ShoulderUnknown { angle: "rad" } "AB2415" Uncertain, each

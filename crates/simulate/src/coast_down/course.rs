@@ -16,6 +16,8 @@ use thermal::warm_machine::{OF_BEARING, by_kind};
 
 /// Largest ln(1/r) of a step: the conductances of its start hold for it.
 const LONGEST_STEP: f64 = 0.03;
+/// Speed below which a rotor stands within seconds, rad/s: laws of friction fade there.
+const AT_REST: f64 = 1.0;
 /// Temperature above which nothing of the model holds, °C: hardened steel is soft, oil and grease are gone.
 pub(crate) const BEYOND: f64 = 350.0;
 
@@ -77,7 +79,10 @@ pub(super) fn follow(
             break end;
         }
         if state.speed <= built.end.stop_speed {
-            break End::Stands;
+            break match built.end.stop_speed > AT_REST {
+                true => End::Reached,
+                false => End::Stands,
+            };
         }
         if state.time >= built.end.longest {
             break End::Late;

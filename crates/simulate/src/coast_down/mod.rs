@@ -99,6 +99,12 @@ pub(crate) fn stop(course: &Course) -> Stop {
     let speed = course.state.speed;
     let (reason, text) = match course.end {
         End::Stands => ("finished", "The rotor stands.".to_string()),
+        End::Reached => (
+            "still turning",
+            format!(
+                "coast_down.stop_speed is reached; the rotor still turns with {speed:.4} rad/s."
+            ),
+        ),
         End::Late => (
             "still turning",
             format!("coast_down.longest is reached; the rotor still turns with {speed:.4} rad/s."),

@@ -82,6 +82,7 @@ results! {
     fn motion(setup: &(), run: &Ran) {
         "stop_time": instant "s" headline, STOP, "time until the rotor stands" in machine_tile "Stands after" => match run.free.end {
             End::Stands => Ok(run.free.state.time),
+            End::Reached => Err("the run ends at coast_down.stop_speed, where the rotor still turns".to_string()),
             _ => Err("the rotor did not come to stand in this run".to_string()),
         };
         "turns": number "", TURNS, "turns of the rotor" => pairs(&run.free.rows).map(|(_, _, turned)| turned).sum::<f64>();
@@ -181,7 +182,7 @@ impl Ran<'_> {
             share: used_by(&points),
             with_lubricant: lubricated.as_ref().map(used_by).map_err(String::clone),
             points: lubricated.unwrap_or(points),
-            is_all: !self.free.end.leaves(),
+            is_all: self.free.end == End::Stands,
         })
     }
     /// Moment of all bearings and of what else brakes the rotor at the start, N m.

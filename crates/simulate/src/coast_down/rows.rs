@@ -48,7 +48,7 @@ pub(crate) struct BallsSeen {
     /// Largest load at the inner and at the outer race, N.
     pub largest: [f64; 2],
     /// Cubes of the loads that pass each point of both rings in a turn, N³: of the inner ring from its angle 0 on, of the outer one from the
-    /// frame's x axis on.
+    /// frame's x axis on. Of several rows as of one that takes as much life.
     pub cubes: [Vec<f64>; 2],
 }
 
@@ -71,6 +71,8 @@ impl Row {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum End {
     Stands,
+    /// At a stop speed that is no standstill.
+    Reached,
     Late,
     Interrupted,
     Beyond,
@@ -82,6 +84,9 @@ pub(crate) enum End {
 impl End {
     /// Whether it has left what the model describes.
     pub fn leaves(self) -> bool {
-        !matches!(self, End::Stands | End::Late | End::Interrupted)
+        !matches!(
+            self,
+            End::Stands | End::Reached | End::Late | End::Interrupted
+        )
     }
 }

@@ -371,5 +371,6 @@ fn wide(part: &Part) -> Option<Warning> {
 
 fn turns_on(ran: &Ran) -> Option<Warning> {
     let (time, speed) = (ran.free.state.time, ran.free.state.speed);
-    (ran.free.end == End::Late).then(|| CoastDownWarning::TurnsOn { time, speed }.into())
+    matches!(ran.free.end, End::Late | End::Reached)
+        .then(|| CoastDownWarning::TurnsOn { time, speed }.into())
 }

@@ -66,7 +66,7 @@ pub(crate) fn outcome(one: &One, context: &Context, after: Option<&After>) -> Ou
     let drop = &one.built.drop;
     let stop = after.map_or_else(|| magnets::stop(context), |after| after.stop.clone());
     let mut quantities = coast_down::quantities(context, after);
-    if !stop.complete() {
+    if stop.reason != "finished" {
         without_count(&mut quantities);
     }
     let work = &context.finished.ending.work;

@@ -247,20 +247,21 @@ fn in_space(context: &Context, k: usize) -> Vec<Graded> {
     if part.spatial().is_some_and(|own| own.groove_ends.is_none()) {
         list.push((angle, SpatialWarning::ShoulderUnknown { angle }.into()));
     }
-    let left = left_out(
-        context.setup.given(k),
-        context.setup.drop().coast_down.is_some(),
-    );
+    let given = context.setup.given(k);
+    let resists = (given.bearing.as_ref()).is_some_and(|own| own.moment != Moment::None);
+    if context.setup.drop().coast_down.is_some() && !resists {
+        list.push((0.0, SpatialWarning::NoFriction.into()));
+    }
+    let left = left_out(given);
     list.extend(left.map(|left| (0.0, SpatialWarning::LeavesOut { left }.into())));
     list
 }
 
-/// What a scenario leaves out of a bearing in space, which a rotor may coast down on; none where it leaves nothing out.
-fn left_out(part: &AuxiliaryBearing, coasts: bool) -> Option<String> {
+/// What a scenario leaves out of a bearing in space; none where it leaves nothing out.
+fn left_out(part: &AuxiliaryBearing) -> Option<String> {
     let heats = (part.warm.as_ref()).is_some_and(|warm| warm.heat.feedback == Feedback::Full);
     let bearing = part.bearing.as_ref();
     let grows = bearing.is_some_and(|own| own.inner_track_growth() != 0.0);
-    let resists = bearing.is_some_and(|own| own.moment != Moment::None);
     let words = [
         (
             !part.contact.faces.any(),
@@ -277,10 +278,6 @@ fn left_out(part: &AuxiliaryBearing, coasts: bool) -> Option<String> {
         (
             grows,
             "expansion of the inner ring with its speed (bearing.inner_race_growth)",
-        ),
-        (
-            !coasts || resists,
-            "rolling resistance and drag of its lubricant, with which a coast-down is shorter (bearing.moment)",
         ),
     ];
     let left: Vec<_> = words
@@ -303,12 +300,33 @@ fn held_along(context: &Context) -> Option<Warning> {
 fn no_thrust(context: &Context) -> Option<Graded> {
     let machine = context.setup.machine;
     let rotor = machine.layout().rotor;
-    let mut parts = (machine.constants.bearings.iter()).filter_map(|part| part.spatial());
-    if !rotor.axial || parts.any(|own| own.stops()) {
-        return None;
-    }
-    let moved = context.finished.ending.state[rotor.place()].abs();
-    Some((moved, SpatialWarning::NoThrust { moved }.into()))
+    let parts = (machine.constants.bearings.iter()).filter_map(|part| part.spatial());
+    let landings: Vec<_> = parts.map(|own| &own.landing).collect();
+    let faces: Vec<_> = landings.iter().flat_map(|own| &own.faces).collect();
+    let place = context.finished.ending.state[rotor.place()];
+    let (moved, stopped) = (
+        place.abs(),
+        faces.iter().any(|face| face.side * place < 0.0),
+    );
+    // no rebound from the other face carries the rotor farther than it fell, nor friction in the bore than the clearance
+    let gaps = faces
+        .iter()
+        .map(|face| face.side * (face.shoulder - face.place));
+    let clearances = landings.iter().map(|own| own.contact.radial_clearance);
+    let held = gaps.chain(clearances).fold(0.0, f64::max);
+    let key = match place > 0.0 {
+        true => "contact.gap_to_end",
+        false => "contact.gap_to_start",
+    };
+    let warning = match rotor.axial {
+        true if !stopped && moved > held => SpatialWarning::Leaves {
+            moved,
+            key: key.to_string(),
+        },
+        true if faces.is_empty() => SpatialWarning::NoThrust { moved },
+        _ => return None,
+    };
+    Some((moved, warning.into()))
 }
 
 /// Balls that traction cannot turn.

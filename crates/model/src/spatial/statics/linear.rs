@@ -50,7 +50,7 @@ const LONGEST_STEP: f64 = 5e-6;
 /// Share of the load to which the iteration balances it.
 const BALANCED: f64 = 1e-11;
 /// The same where rounding is met: places of balls are known to 4e-18 m.
-const ROUNDING: f64 = 1e-8;
+pub(super) const ROUNDING: f64 = 1e-8;
 
 impl Balance {
     /// Damped steps from a displacement: the damping fades with what is left of the load.

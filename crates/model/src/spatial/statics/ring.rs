@@ -10,7 +10,7 @@
 //! the contacts.
 
 use super::ball::{BallEquilibrium, Running, StaticBall};
-use super::linear::{Balance, Reaction};
+use super::linear::{Balance, ROUNDING, Reaction};
 use crate::spatial::spring::PreloadSpring;
 use std::f64::consts::TAU;
 use std::fmt;
@@ -273,7 +273,7 @@ impl StaticRows {
         rows: impl Fn(f64) -> Result<Sum, NoEquilibrium>,
     ) -> Result<(Sum, f64), NoEquilibrium> {
         let [longest, rounding] = SLIDES;
-        let mut slid = from;
+        let (mut slid, mut before) = (from, f64::INFINITY);
         for _ in 0..200 {
             let at = match rows(slid) {
                 Ok(at) => at,
@@ -287,10 +287,13 @@ impl StaticRows {
             let force = spring.force(slid);
             let left = -spring.side * at.load[2] - force;
             let step = left / (spring.rate(slid) - at.slope[2][2]).max(1e-3);
-            let near = left.abs() <= BALANCED * force.max(at.largest);
-            if near || step.abs() < rounding {
+            let share = left.abs() / force.max(at.largest);
+            // near the balance, what no longer shrinks is rounding
+            let rounded = share < ROUNDING && share > 0.5 * before;
+            if share <= BALANCED || step.abs() < rounding || rounded {
                 return Ok((at, slid));
             }
+            before = share;
             slid += spring.side * step.max(-longest);
         }
         Err(NoEquilibrium::Ring)

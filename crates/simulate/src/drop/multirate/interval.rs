@@ -30,6 +30,7 @@ use model::system::machine::simulate::{Runs, Steps, simulate};
 use model::system::machine::{AtSpeed, MOST_LOADED, MachineConstants, RotorMachine};
 use model::system::sampling::Peak;
 use number::Vec2;
+use physics::life::of_rows;
 use scenario::Accuracy;
 use solve::{Machine, Observer, Settings};
 use std::f64::consts::{PI, TAU};
@@ -553,9 +554,11 @@ impl Piece<'_> {
 fn balls(record: &BearingRecord) -> Option<BallsSeen> {
     let (races, turns) = (record.races.as_ref()?, record.turns);
     let loads = [record.largest_inner_load, record.largest_outer_load];
+    let each_turn = |sums: &[f64]| sums.iter().map(|sum| sum / turns).collect();
+    let rows = races.by_row().map(|sums| sums.map(each_turn));
+    let (inner, outer): (Vec<Vec<f64>>, Vec<_>) = rows.map(|[inner, outer]| (inner, outer)).unzip();
     (turns > 0.0).then(|| BallsSeen {
         largest: loads.map(|peak| peak.value),
-        cubes: (races.races.each_ref())
-            .map(|race| race.sums.iter().map(|sum| sum / turns).collect()),
+        cubes: [of_rows(&inner), of_rows(&outer)],
     })
 }

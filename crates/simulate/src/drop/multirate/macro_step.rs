@@ -89,7 +89,7 @@ pub(super) fn step(
         found = ran(&nearer, interrupt).map_err(no_network)?;
     }
     let end = match found.free.end {
-        End::Stands => None,
+        End::Stands | End::Reached => None,
         end => Some(end),
     };
     built.start = found.start();
