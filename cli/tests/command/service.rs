@@ -2,6 +2,7 @@
 
 use crate::place::Place;
 use auxbear::report::service::{Occasion, service};
+use std::fs;
 
 /// A short drop with a dynamic load rating, which catalogues rarely tell.
 fn drop(place: &Place, name: &str, more: &[&str]) {
@@ -98,6 +99,13 @@ fn fifty_drops_of_shipped_scenarios_are_a_service() {
     // a share of a life so small that fatigue decides nothing
     assert!(found.survival.unwrap() > 0.999);
     assert!(told.out.contains("40 x full") && told.out.contains("10 x half"));
+    // drops of a bearing that does not hold together are no service
+    let file = place.path("half").join("summary.json");
+    let text = fs::read_to_string(&file).unwrap();
+    let (start, rest) = text.split_once("\"code\": \"AB").unwrap();
+    fs::write(&file, format!("{start}\"code\": \"AB2420{}", &rest[4..])).unwrap();
+    let called = place.call(&["service", "40:full", "10:half"]);
+    called.refused(&["half", "AB2420", "open side"]);
 }
 
 #[test]
