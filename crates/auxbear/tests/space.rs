@@ -1,5 +1,6 @@
 //! Machines with bearings in space.
 
+use crate::coast_down::list;
 use crate::machine::{parsed, ran};
 use crate::outcomes::number;
 use auxbear::outcome::Value;
@@ -477,14 +478,22 @@ fn what_is_not_computed_of_a_bearing_in_space_is_refused() {
 
 #[test]
 fn a_shoulder_says_where_the_grooves_end() {
-    let key = "auxiliary_bearing.lower.bearing.shoulder_height=0.8 mm";
-    let low = ran(FLYWHEEL, &["run.duration=1 ms", key]);
-    let Value::List(ends) = &low.quantity("lower.groove_end_angles").unwrap().value else {
-        panic!("no list");
-    };
+    let key = "auxiliary_bearing.lower.bearing.shoulder_height=0.45 mm";
+    let low = ran(FLYWHEEL, &["run.duration=7.2 ms", key]);
+    let [ends, halves] = ["groove_end_angles", "contact_ellipse_half_angles"]
+        .map(|name| list(&low, &format!("lower.{name}")));
     // acos(1 - h/r_g), r_g = 0.521 times 7.94 mm
-    let end = (1.0 - 0.8 / (0.521 * 7.94_f64)).acos();
+    let end = (1.0 - 0.45 / (0.521 * 7.94_f64)).acos();
     assert!(ends.len() == 2 && ends.iter().all(|own| (own / end - 1.0).abs() < 1e-12));
+    // the first ellipse that reaches over the shoulder ends there
+    let over = low.warnings.iter().find(|own| own.code == "AB2412");
+    let text = &over.unwrap().text;
+    let after = |words: &str| -> f64 {
+        let (_, rest) = text.split_once(words).unwrap();
+        rest.split(' ').next().unwrap().parse().unwrap()
+    };
+    let reach = after("contact angle ").to_radians() + halves[0] * after("deg, ").cbrt();
+    assert!((reach - end).abs() < 0.01, "{reach} {end}: {text}");
 }
 
 #[test]

@@ -1,9 +1,11 @@
 // Bearings in space: ball loads of their rows at an instant, motion of the rotor along its axis, contact angles against the ends of the grooves.
 
 // Contact angles at which the grooves of the inner and the outer race end, deg; null where the height of the shoulder is not given.
-function grooveEnds(run) {
-  const [ends] = shownIn(run, "space").map(({ quantity }) => list(quantity.value));
-  return ends && ends.length ? ends.map((end) => (180 / Math.PI) * end) : null;
+const grooveEnds = (run) => anglesNamed(run, "groove ends");
+
+function anglesNamed(run, name) {
+  const [angles] = shownIn(run, "space").filter(({ words }) => words === name).map(({ quantity }) => list(quantity.value));
+  return angles && angles.length ? angles.map((angle) => (180 / Math.PI) * angle) : null;
 }
 
 function grooveNote(runs, race) {
@@ -46,6 +48,54 @@ function loadDrawing(row, at, largest, size) {
   return drawing("svg", { width, height: size, viewBox: `0 0 ${width} ${size}`, role: "img" }, circles, words, sides, balls);
 }
 
+const RACES = ["inner", "outer"];
+const RACE_COLOURS = [SERIES_COLOURS.race, SERIES_COLOURS.rotor];
+
+// How far the contact ellipse of a ball reaches in the groove of a race, deg; null where it carries nothing.
+function ellipseReach(ball, race, at, halves) {
+  const [load, angle] = ["load", "angle"].map((part) => (ball[`${RACES[race]}_${part}`] || [])[at]);
+  return load > 0 && isNumber(angle) ? [-1, 1].map((side) => angle + side * halves[race] * Math.cbrt(load)) : null;
+}
+
+const GROOVE_HEIGHT = 190;
+
+// Contact ellipses of one row in their grooves unrolled: azimuth to the right, angle in the groove upwards; inner race to the left of each ball.
+function ellipseDrawing(row, at, { halves, ends, low, high }) {
+  const [left, top, width, height] = [SIDE_WORDS + 12, 8, LOADS_SIZE - 8, GROOVE_HEIGHT - 46];
+  const y = (angle) => top + (height * (high - angle)) / (high - low);
+  const frame = drawing("rect", { x: left, y: top, width, height, fill: "none", stroke: RULE });
+  const angles = axisSteps(low, high, 4).filter((angle) => angle >= low && angle <= high);
+  const upright = angles.map((angle) => [drawing("line", { x1: left, x2: left + width, y1: y(angle), y2: y(angle), stroke: RULE, "stroke-width": 0.5 }), axisText(left - 5, y(angle) + 4, "end", `${numberText(angle, 3)}°`, { "font-size": 10.5, fill: PALE_INK })]);
+  const across = MAP_TICKS.map(([share, words]) => axisText(left + share * width, top + height + 14, "middle", words, { "font-size": 10.5, fill: PALE_INK }));
+  const shoulders = (ends || []).flatMap((end, race) => [-end, end].filter((angle) => angle > low && angle < high).map((angle) => drawing("line", { x1: left, x2: left + width, y1: y(angle), y2: y(angle), stroke: SERIES_COLOURS.limit, "stroke-width": 1.5, "stroke-dasharray": race ? "2 3" : "7 4" }, drawing("title", {}, `shoulder of the ${RACES[race]} race`))));
+  const balls = ballsOf(row).flatMap((ball) =>
+    RACES.map((_, race) => {
+      const reach = ellipseReach(ball, race, at, halves);
+      if (!reach || !isNumber((ball.azimuth || [])[at])) return null;
+      const x = left + turnShare(ball.azimuth[at]) * width + (race ? 3 : -3);
+      return drawing("line", { x1: x, x2: x, y1: y(reach[0]), y2: y(reach[1]), stroke: RACE_COLOURS[race], "stroke-width": 4 }, drawing("title", {}, `${ball.name}, ${RACES[race]} race: ${reach.map((angle) => numberText(angle, 3)).join(" to ")}°`));
+    }),
+  );
+  const size = { width: LOADS_SIZE + 2 * SIDE_WORDS, height: GROOVE_HEIGHT };
+  return drawing("svg", { ...size, viewBox: `0 0 ${size.width} ${size.height}`, role: "img", style: "display:block" }, upright, across, frame, shoulders, balls);
+}
+
+// Angles between which all ellipses of a run lie, with the shoulders where they are known; null without ellipses.
+function ellipseScale(run) {
+  const halves = anglesNamed(run, "ellipses");
+  if (!halves) return null;
+  const ends = grooveEnds(run);
+  let [low, high] = [0, 0];
+  for (const ball of ballsOf(run))
+    for (let at = 0; at < run.time.length; at++)
+      for (const race of [0, 1]) {
+        const reach = ellipseReach(ball, race, at, halves);
+        if (reach) [low, high] = [Math.min(low, reach[0]), Math.max(high, reach[1])];
+      }
+  const near = (ends || []).flatMap((end) => [-end, end]).filter((angle) => angle > 1.4 * low - 5 && angle < 1.4 * high + 5);
+  return { halves, ends, low: Math.min(low, ...near) - 1, high: Math.max(high, ...near) + 1 };
+}
+
 // What the most loaded ball of a row carries, and under which angles.
 function mostLoaded(row, at) {
   const balls = ballsOf(row).filter((ball) => ball.outer_load && isNumber(ball.outer_load[at]));
@@ -63,18 +113,19 @@ function loadFigure(run, runs) {
   const rows = rowsOf(run);
   const holder = element("div", { class: "rows" });
   const all = ballsOf(run);
+  const ellipses = ellipseScale(run);
   const draw = (at) => {
     const most = all.reduce((largest, ball) => Math.max(largest, ball.inner_load[at] || 0, ball.outer_load[at] || 0), 0);
     // in steps, so that the scale rarely changes while time runs
     const power = 10 ** Math.floor(Math.log10(most || 1));
     const largest = SCALES.map((scale) => scale * power).find((scale) => scale >= most);
-    const drawings = rows.map((row) => element("div", {}, element("p", { class: "run-label" }, rows.length > 1 ? `row ${row.row}${row.row > 1 ? ", towards the end of the shaft" : ", towards the start of the shaft"}` : "the row"), loadDrawing(row, at, largest, LOADS_SIZE), element("p", { class: "small" }, mostLoaded(row, at))));
+    const drawings = rows.map((row) => element("div", {}, element("p", { class: "run-label" }, rows.length > 1 ? `row ${row.row}${row.row > 1 ? ", towards the end of the shaft" : ", towards the start of the shaft"}` : "the row"), loadDrawing(row, at, largest, LOADS_SIZE), ellipses && ellipseDrawing(row, at, ellipses), element("p", { class: "small" }, mostLoaded(row, at))));
     holder.replaceChildren(...drawings);
   };
   const peak = axialPeak(run) || (peakContact(run) || {}).peak_time_s || run.time[0];
-  const key = [["inner race", SERIES_COLOURS.race], ["outer race", SERIES_COLOURS.rotor]].map(([words, colour]) => element("span", { class: "curve-key" }, curveSample({ colour, width: 4 }), words));
-  const note = "Load of every ball at its azimuth, outwards from the pitch circle; all rows to one scale; the white ball is the first of its row. Angles are positive towards the end of the shaft. Move the pointer over a time plot, or the slider.";
-  return figure(shareOfRun(run, runs, "Ball loads around the rows"), note, timeSlider(run, peak, draw, true), holder, element("p", { class: "curve-keys" }, key));
+  const key = RACES.map((race, k) => [`${race} race`, RACE_COLOURS[k]]).map(([words, colour]) => element("span", { class: "curve-key" }, curveSample({ colour, width: 4 }), words));
+  const note = "Load of every ball at its azimuth, outwards from the pitch circle; all rows to one scale; the white ball is the first of its row. Below: how far the contact ellipses reach along their grooves, angles positive towards the end of the shaft; red: the edges of the shoulders, inner race long dashes, outer race short ones, where bearing.shoulder_height is given. Move the pointer over a time plot, or the slider.";
+  return figure(shareOfRun(run, runs, "Ball loads around the rows, and contact ellipses"), note, timeSlider(run, peak, draw, true), holder, element("p", { class: "curve-keys" }, key));
 }
 
 // The instant of the largest force on the faces, or null.

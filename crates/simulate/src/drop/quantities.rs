@@ -13,6 +13,7 @@ use crate::following::Following;
 use crate::static_safety::{no_safety, safety_under};
 use catalogue::geometry::digits;
 use model::auxiliary_bearing::probe::AXIAL_FORCE;
+use model::spatial::race::RaceGroove;
 use model::spatial::record::SpatialRecord;
 use model::spatial::{PreloadSpring, SpatialBearing};
 use model::system::energy::{Content, Flows};
@@ -293,6 +294,11 @@ results! {
         "groove_end_angles": list "rad", GROOVE_ENDS, "contact angles at which the grooves of the inner and the outer race end" in space "groove ends", unless {
             not_given("bearing.shoulder_height", setup.groove_ends)
         } => setup.groove_ends.map_or(Vec::new(), Vec::from);
+        "contact_ellipse_half_angles": list "rad", ELLIPSES, "half of the angle that the contact ellipses at the inner and the outer race cover in their grooves under 1 N" in space "ellipses" => {
+            let ball = &setup.rows[0].ball;
+            let half = |race: &RaceGroove<f64>| race.half_axis / race.stiffness.cbrt() / ball.radius;
+            vec![half(&ball.inner), half(&ball.outer)]
+        };
     }
     fn mount_force(setup: &(), run: &Landed) {
         "peak_mount_force": number "N", MOUNT_FORCE, "largest force of the mount on the housing" => run.record.largest_mount_force.value;
@@ -496,6 +502,9 @@ origins! {
     RUN_OVER: law "|α| + a_H/r > acos(1 - h/r_g): the ellipse reaches the shoulder",
         source "derived, book/src/theory/spatial.md, crates/model/src/spatial/record.rs",
         valid "errs to the safe side by 4 %; from there on the stress at the edge is not known, and the contact is computed as if its groove went on";
+    ELLIPSES: law "a/r_b under 1 N: half of the long axis over the ball's radius; it grows with Q^(1/3)",
+        source "Hertz, book/src/theory/spatial.md",
+        valid "as the elliptic contact; of the first row";
     GROOVE_ENDS: law "acos(1 - h/r_g) of each race",
         source "derived, book/src/theory/spatial.md",
         valid "middle of a contact at the edge of the shoulder; its ellipse is cut off before";
