@@ -32,6 +32,9 @@ fn forbidden<'a>(forbids: &Forbidden, outcome: &'a Outcome) -> Vec<&'a Warning> 
         .collect()
 }
 
+/// A result that every coast-down has.
+const STOP_TIME: &str = "stop_time";
+
 /// Why some of these warnings cannot come: the result that they come from has no value, or a list of it no entry; or, of a single
 /// code, there is no such result.
 pub fn not_evaluated(
@@ -42,6 +45,13 @@ pub fn not_evaluated(
     let kinds = (declared.iter())
         .filter(|kind| !kind.by.is_empty() && forbids.meets(kind.code, kind.severity));
     let named = matches!(forbids, Forbidden::Code(_));
+    let mut meant = declared
+        .iter()
+        .filter(|kind| forbids.meets(kind.code, kind.severity));
+    let coasts = quantities.iter().any(|own| is_of(&own.name, STOP_TIME));
+    if named && !coasts && meant.all(|kind| kind.evaluation == Evaluation::CoastDown) {
+        return Some("it comes of a coast-down, and this run has none".to_string());
+    }
     if let Some(kind) = kinds.clone().find(|kind| {
         let there = quantities.iter().any(|own| is_of(&own.name, kind.by));
         named && !there

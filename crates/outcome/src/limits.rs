@@ -18,7 +18,8 @@ use crate::forbidden;
 use crate::list::NOT_GIVEN;
 use crate::whirl::slips_in;
 pub use crate::whirl::{
-    CONTACTS, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked, whirl_sought,
+    CONTACTS, NOT_LANDED, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked,
+    whirl_sought,
 };
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
@@ -33,7 +34,7 @@ use std::collections::BTreeSet;
 use units::{Dimension, Unit};
 
 /// Warnings of runs that qualify no machine, and what is said of them instead of a verdict.
-const OF_NO_MACHINE: [(&str, &str); 5] = [
+const OF_NO_MACHINE: [(&str, &str); 6] = [
     (
         NO_QUALIFICATION.code,
         "no verdict where weight acts along the shaft: that motion and its force are not in this run",
@@ -41,6 +42,10 @@ const OF_NO_MACHINE: [(&str, &str); 5] = [
     (
         "AB2420",
         "no verdict where a row carries thrust on its open side: no such bearing holds together",
+    ),
+    (
+        "AB2412",
+        "no verdict where a contact reaches over the shoulder of its groove: the stress at that edge is not computed",
     ),
     (
         "AB2421",
@@ -218,10 +223,37 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             true => whirl_sought(judged, angles.len().max(1), slips_in(limit, outcome)),
             false => judged,
         };
+        let judged = match warned(outcome, RISING, &limit.quantity) && is_peak(&limit.quantity) {
+            true => undecided(
+                judged,
+                format!("its largest comes at the end of the run ({RISING})"),
+            ),
+            false => judged,
+        };
         withheld(judged, no_machine.as_deref())
     };
     let limits = named(&scenario.limits_here(), &outcome.quantities);
     limits.iter().map(judged).collect()
+}
+
+/// Says that the largest contact force of a bearing comes at the end of the run.
+const RISING: &str = "AB2423";
+
+fn is_peak(name: &str) -> bool {
+    let own = name.rsplit('.').next();
+    own.is_some_and(|own| own.starts_with("peak_"))
+}
+
+/// Whether a warning came of the bearing of a result.
+fn warned(outcome: &Outcome, code: &str, name: &str) -> bool {
+    let of_its_part = |part: &str| {
+        part.is_empty()
+            || name
+                .strip_prefix(part)
+                .is_some_and(|rest| rest.starts_with('.'))
+    };
+    let mut all = outcome.warnings.iter();
+    all.any(|own| own.code == code && of_its_part(&own.part))
 }
 
 /// Why runs with these warnings qualify no machine; none where they may.
@@ -268,11 +300,16 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
         values.resize(asked, None);
         return (values, why);
     }
+    let whole = outcome.stop.complete() && !warned(outcome, NOT_LANDED, &quantity.name);
+    let idle = || {
+        contacts_of(&quantity.name)
+            .is_some_and(|names| names.map(|name| outcome.number(&name).unwrap_or(0.0)) == [0.0; 2])
+    };
     match (&quantity.value, outcome.stop.complete()) {
-        (Value::None { .. }, true) if quantity.of_contacts => (vec![Some(0.0)], String::new()),
-        (Value::None { .. }, true)
-            if contacts_of(&quantity.name).and_then(|name| outcome.number(&name)) == Some(0.0) =>
-        {
+        (Value::None { .. }, true) if whole && quantity.of_contacts => {
+            (vec![Some(0.0)], String::new())
+        }
+        (Value::None { .. }, true) if whole && idle() => {
             // it comes to no speed, and need not
             (vec![Some(0.0)], "the rotor does not touch it".to_string())
         }

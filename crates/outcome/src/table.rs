@@ -1,6 +1,6 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::limits::contacts_of;
+use crate::limits::{NOT_LANDED, contacts_of};
 use crate::{Outcome, Value};
 use problem::explain;
 use std::collections::BTreeMap;
@@ -255,15 +255,17 @@ impl Table {
     /// What a limit holds of a result in each member; `of_contacts` where a member without a contact has none of it.
     pub fn limited(&self, name: &str, bound: f64, of_contacts: bool) -> Vec<Option<f64>> {
         let mut values = self.decisive(name, bound);
-        // a race that the rotor does not touch comes to no speed, and need not
-        let contacts = contacts_of(name).map_or(Vec::new(), |name| self.values(&name));
-        for (value, _) in (values.iter_mut().zip(contacts)).filter(|(_, own)| *own == Some(0.0)) {
-            *value = Some(0.0);
-        }
-        if of_contacts {
-            for (value, member) in values.iter_mut().zip(&self.members) {
-                let whole = !self.failed.contains_key(member);
-                *value = value.or(whole.then_some(0.0));
+        let early = self.values(&format!("{WARNING}{NOT_LANDED}"));
+        let touches = contacts_of(name).map(|names| names.map(|name| self.values(&name)));
+        for (k, value) in values.iter_mut().enumerate() {
+            let whole = early[k].is_none() && !self.failed.contains_key(&self.members[k]);
+            // a race that the rotor does not touch comes to no speed, and need not
+            let idle = (touches.as_ref())
+                .is_some_and(|[bore, face]| bore[k] == Some(0.0) && face[k].is_none());
+            if whole && idle {
+                *value = Some(0.0);
+            } else if whole && of_contacts {
+                *value = value.or(Some(0.0));
             }
         }
         values

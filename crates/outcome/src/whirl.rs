@@ -36,11 +36,17 @@ const OF_TOUCHED: [&str; 3] = [
     "cage_time_to_95_percent_of_rolling",
 ];
 
-/// The contacts of the bearing of an instant that comes only where the rotor touches it; none of other results.
-pub fn contacts_of(name: &str) -> Option<String> {
+/// Its first contact with a face.
+const ON_FACE: &str = "time_to_first_axial_contact";
+
+/// The contacts of the bearing of an instant that comes only where the rotor touches it, with its bore and with a face; none of other results.
+pub fn contacts_of(name: &str) -> Option<[String; 2]> {
     let own = OF_TOUCHED.iter().find(|own| is_of(name, own))?;
-    Some(name.replace(own, CONTACTS))
+    Some([CONTACTS, ON_FACE].map(|contacts| name.replace(own, contacts)))
 }
+
+/// Says that a run ends before the rotor comes to a bearing.
+pub const NOT_LANDED: &str = "AB2424";
 
 /// Whether the bearing of a limit, or one of all of a limit of warnings, slips when a member ends.
 pub(crate) fn slips_in(limit: &Limit, outcome: &Outcome) -> bool {

@@ -23,6 +23,8 @@ const OF_SPACE: [&str; 8] = [
     "mount.tilt_stiffness",
 ];
 
+/// Gravity that no place on Earth has, m/s².
+const MOST_GRAVITY: f64 = 9.9;
 /// Keys that only a preload spring has.
 const OF_SPRING: [&str; 3] = [
     "bearing.preload_spring_side",
@@ -239,6 +241,14 @@ impl Context<'_> {
             };
         }
         let axial = drop.gravity.axial;
+        let both = drop.gravity.acceleration.hypot(axial);
+        if both > MOST_GRAVITY && !self.values.is_given("gravity.acceleration") {
+            let found = format!("{} without gravity.acceleration", self.text(AXIAL));
+            let needed = format!(
+                "what is left of gravity across the shaft is needed, 0 m/s^2 of an upright one: with its default of 9.81 m/s^2 the rotor has {both:.1} m/s^2"
+            );
+            return self.refuse(Code::MissingKey, AXIAL, found, needed);
+        }
         let key = match axial < 0.0 {
             true => "contact.gap_to_start",
             false => "contact.gap_to_end",

@@ -15,10 +15,12 @@ use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use model::system::sampling::Peak;
 use outcome::Warning;
 use problem::warning::Evaluation;
-use scenario::{AuxiliaryBearing, DRAWN_ON, Feedback, Fidelity, Moment, Scenario};
+use scenario::{AuxiliaryBearing, DRAWN_ON, Event, Feedback, Fidelity, Moment, Scenario};
 
 /// Share of the largest load of a ball that one may carry for an instant beyond the bottom of its groove.
 const OF_OPEN_SIDE: f64 = 0.05;
+/// Share of a run at its end in which a largest force is one that may rise further.
+const LATE: f64 = 0.01;
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
@@ -88,6 +90,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     list.extend(each(&|k| graded(preload(context, k))));
     list.extend(each(&|k| graded(in_space(context, k))));
     list.extend(graded(no_thrust(context)));
+    list.extend(each(&|k| graded(too_short(context, k))));
     list.extend(each(&|k| {
         let mut list = graded(loads(context, k));
         list.extend(damping(context, k));
@@ -327,6 +330,28 @@ fn no_thrust(context: &Context) -> Option<Graded> {
         _ => return None,
     };
     Some((moved, warning.into()))
+}
+
+/// A run that ends before the rotor comes to a bearing, or while the force on it rises.
+fn too_short(context: &Context, k: usize) -> Option<Graded> {
+    let drop = context.setup.drop();
+    let record = context.record(k);
+    let on_face = (record.spatial.as_ref()).is_some_and(|own| own.first_axial_contact.is_some());
+    let held = match context.setup.controlled() {
+        Some(given) => {
+            context.finished.record.lost.is_none() || given.events.iter().any(Event::relevitates)
+        }
+        None => drop.levitation.stiffness > 0.0,
+    };
+    if drop.coast_down.is_some() || held {
+        return None;
+    }
+    let end = context.finished.ending.time;
+    match record.peak_contact_force() {
+        Some(Peak { value: force, time }) => (time > end - LATE * (end - context.counted_from()))
+            .then(|| (force, DropWarning::StillRising { force, time }.into())),
+        None => (!on_face).then(|| (0.0, DropWarning::NotLanded.into())),
+    }
 }
 
 /// Balls that traction cannot turn.
