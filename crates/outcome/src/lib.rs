@@ -11,6 +11,7 @@ pub mod list;
 pub mod options;
 pub mod table;
 mod whirl;
+mod withheld;
 
 pub use host::start_pool;
 pub use options::Options;

@@ -21,10 +21,11 @@ pub use crate::whirl::{
     CONTACTS, NOT_LANDED, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked,
     whirl_sought,
 };
+pub use crate::withheld::{of_no_machine, undecided, withheld};
+use crate::withheld::{rises, warned};
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
 use problem::{Code, Problem, Result, did_you_mean, question};
-use scenario::notes::NO_QUALIFICATION;
 use scenario::{Limit, Scenario, Side, UNBALANCE_ANGLE, present_name};
 use statistics::share::{
     CONFIDENCE, MOST_MEMBERS, at_least_shown, at_most_shown, more_members, shows_missed,
@@ -33,33 +34,6 @@ use statistics::share::{
 use std::collections::BTreeSet;
 use units::{Dimension, Unit};
 
-/// Warnings of runs that qualify no machine, and what is said of them instead of a verdict.
-const OF_NO_MACHINE: [(&str, &str); 6] = [
-    (
-        NO_QUALIFICATION.code,
-        "no verdict where weight acts along the shaft: that motion and its force are not in this run",
-    ),
-    (
-        "AB2420",
-        "no verdict where a row carries thrust on its open side: no such bearing holds together",
-    ),
-    (
-        "AB2412",
-        "no verdict where a contact reaches over the shoulder of its groove: the stress at that edge is not computed",
-    ),
-    (
-        "AB2421",
-        "no verdict where the rotor leaves its bearings along the axis",
-    ),
-    (
-        "AB2315",
-        "no verdict where the rotor still turns at the end of its coast-down: what comes then is not in this run",
-    ),
-    (
-        "AB2422",
-        "no verdict of a coast-down without the friction moment of its bearings: too long, and too cool",
-    ),
-];
 /// Names of results that a message lists.
 const MOST_NAMES: usize = 8;
 
@@ -223,63 +197,14 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             true => whirl_sought(judged, angles.len().max(1), slips_in(limit, outcome)),
             false => judged,
         };
-        let judged = match warned(outcome, RISING, &limit.quantity) && is_peak(&limit.quantity) {
-            true => undecided(
-                judged,
-                format!("its largest comes at the end of the run ({RISING})"),
-            ),
-            false => judged,
+        let judged = match rises(outcome, &limit.quantity) {
+            Some(why) => undecided(judged, why),
+            None => judged,
         };
         withheld(judged, no_machine.as_deref())
     };
     let limits = named(&scenario.limits_here(), &outcome.quantities);
     limits.iter().map(judged).collect()
-}
-
-/// Says that the largest contact force of a bearing comes at the end of the run.
-const RISING: &str = "AB2423";
-
-fn is_peak(name: &str) -> bool {
-    let own = name.rsplit('.').next();
-    own.is_some_and(|own| own.starts_with("peak_"))
-}
-
-/// Whether a warning came of the bearing of a result.
-fn warned(outcome: &Outcome, code: &str, name: &str) -> bool {
-    let of_its_part = |part: &str| {
-        part.is_empty()
-            || name
-                .strip_prefix(part)
-                .is_some_and(|rest| rest.starts_with('.'))
-    };
-    let mut all = outcome.warnings.iter();
-    all.any(|own| own.code == code && of_its_part(&own.part))
-}
-
-/// Why runs with these warnings qualify no machine; none where they may.
-pub fn of_no_machine(warned: impl Fn(&str) -> bool) -> Option<String> {
-    let found = OF_NO_MACHINE.iter().find(|(code, _)| warned(code));
-    found.map(|(code, why)| format!("{why} ({code})"))
-}
-
-/// A verdict of runs that qualify no machine for this reason.
-pub fn withheld(judged: Judged, of_no_machine: Option<&str>) -> Judged {
-    match of_no_machine {
-        Some(why) => undecided(judged, why.to_string()),
-        None => judged,
-    }
-}
-
-/// A verdict that something speaks against: what is broken stays so.
-pub fn undecided(judged: Judged, why: String) -> Judged {
-    match judged.verdict {
-        Verdict::Fail => judged,
-        Verdict::Pass | Verdict::Undecided => Judged {
-            verdict: Verdict::Undecided,
-            why,
-            ..judged
-        },
-    }
 }
 
 /// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while

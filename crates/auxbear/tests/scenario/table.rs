@@ -108,11 +108,11 @@ fn choices(path: &str) -> Vec<String> {
             "levitation.axial_stiffness=1 MN/m",
             "contact.gap_to_end=0.2 mm",
             "contact.gap_to_start=0.2 mm",
+            "gravity.acceleration=0 m/s^2",
         ],
         "rotor.brake_torque" => &["rotor.spin=braked"],
         "rotor.brake_start" => &["rotor.spin=braked", "rotor.brake_torque=1 N m"],
-        // its rows reach beyond the rotor's speed; a share is one of a torque
-        "rotor.torque_over_speed" => &["rotor.speed=1 rad/s"],
+        "rotor.torque_over_speed" => &["rotor.speed=1 rad/s"], // its rows reach beyond
         "rotor.torque_share_over_time" => {
             &["rotor.torque_over_speed=[[\"0 rpm\", \"0 N m\"], [\"1e5 rpm\", \"-1 N m\"]]"]
         }
