@@ -168,18 +168,14 @@ impl<R: Real> Machines<R> {
             pulled += centre.position.cross(reaction.force);
         }
         let (mut pushing, mut turning, mut thrust) = (zero, zero, zero);
-        // by their number: a chain with the list of loads would copy it in every call, whether there are any or not
-        let forces = self.forces.len();
-        for k in 0..forces + self.loaded.len() {
-            let (node, own) = match self.forces.get(k) {
-                Some(own) => {
-                    let (force, torque) = own.at(time);
-                    turning += torque;
-                    thrust += force.z;
-                    (&own.node, Vec2::new(force.x, force.y))
-                }
-                None => (&self.loaded[k - forces], mode.loads[k - forces]),
-            };
+        let loads = self.loaded.iter().zip(mode.loads);
+        let forces = self.forces.iter().map(|own| {
+            let (force, torque) = own.at(time);
+            turning += torque;
+            thrust += force.z;
+            (&own.node, Vec2::new(force.x, force.y))
+        });
+        for (node, own) in forces.chain(loads) {
             let centre = node.centre(&rotor);
             node.push(own, [&mut *force_x, &mut *force_y]);
             moment += centre.arm.cross(own);
@@ -251,7 +247,7 @@ impl<R: Real> Machines<R> {
         }
         rate[layout.source(0)] = levitation.0 + in_space.magnet;
         rate[layout.source(1)] = torques.driving * rotor.spin;
-        const { assert!(ROTOR_SOURCES.len() == 2) };
+        debug_assert!(ROTOR_SOURCES.len() == 2);
         if let Some(source) = of_rotor.magnets {
             rate[layout.source(source)] = magnets;
         }
