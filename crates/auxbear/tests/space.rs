@@ -552,6 +552,13 @@ fn a_weight_that_nothing_stops_is_refused_with_the_word_spatial() {
             .unwrap_err()
             .contains("fall through its bearings")
     );
+    // the default of what acts across the shaft would make 1.41 g of it
+    let whole = FLYWHEEL.replacen("acceleration = \"0 m/s^2\"\n", "", 1);
+    let refused = parsed(&whole, &[]).unwrap_err();
+    assert!(
+        refused.contains("gravity.acceleration") && refused.contains("13.9"),
+        "{refused}"
+    );
     let found = parsed(AGAIN, &["gravity.axial=9.81 m/s^2"]).unwrap_err();
     assert!(
         found.contains("\"spatial\" is needed") && found.contains("carry no thrust"),

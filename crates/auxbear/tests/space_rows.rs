@@ -128,3 +128,29 @@ fn an_idle_row_lengthens_no_life() {
     let ratio = each_turn[0] / each_turn[1];
     assert!((0.95..1.1).contains(&ratio), "{ratio}");
 }
+
+/// A race that spins up on a face has been touched, a bearing that the rotor has not come to decides nothing, and neither does a force that
+/// rises at the end, nor a warning of coast-downs in a drop.
+#[test]
+fn a_run_that_ends_too_early_has_no_verdict() {
+    let limit =
+        |name: &str, most: &str| format!("[[limit]]\nquantity = \"{name}\"\nmost = \"{most}\"\n");
+    let limited = [
+        FLYWHEEL.to_string(),
+        limit("lower.inner_race_time_to_95_percent", "30 ms"),
+        limit("lower.inner_race_time_to_95_percent", "1 s"),
+        limit("upper.inner_race_time_to_95_percent", "1 s"),
+        limit("upper.peak_contact_force", "9 kN"),
+        "[[limit]]\nwarning = \"AB2325\"\n".to_string(),
+    ];
+    let run = ran(&limited.join("\n"), &["run.duration=40 ms"]);
+    assert!(warned(&run, "AB2424"));
+    let verdicts: Vec<Verdict> = run.limits.iter().map(|own| own.verdict).collect();
+    let (fail, open) = (Verdict::Fail, Verdict::Undecided);
+    assert_eq!(verdicts, [fail, open, open, open, open]);
+    // it comes to the upper bearing at 99 ms, and presses it harder and harder
+    let limited = [FLYWHEEL, &limit("upper.peak_contact_force", "9 kN")];
+    let run = ran(&limited.join("\n"), &["run.duration=100 ms"]);
+    assert!(warned(&run, "AB2423") && !warned(&run, "AB2424"));
+    assert_eq!(run.limits[0].verdict, open);
+}

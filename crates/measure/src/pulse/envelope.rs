@@ -206,11 +206,12 @@ fn is_steady(swings: &[Swing]) -> bool {
     let (mut least, mut largest) = (f64::INFINITY, 0.0f64);
     for k in 0..swings.len() {
         let near = &swings[k.saturating_sub(BESIDE)..(k + BESIDE + 1).min(swings.len())];
-        let (_, second) = near
+        let (first, second) = near
             .iter()
             .fold((0.0f64, 0.0f64), |(first, second), swing| {
                 (first.max(swing.height), second.max(first.min(swing.height)))
             });
+        debug_assert!(first >= second);
         (least, largest) = (least.min(second), largest.max(second));
     }
     least > STEADY * largest

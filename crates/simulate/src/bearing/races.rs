@@ -70,7 +70,7 @@ pub(crate) struct Life {
     pub with_lubricant: Result<f64, String>,
     /// At the points of both rings, with that factor where it is known.
     pub points: [Vec<f64>; 2],
-    /// Whether the run went on to its end, or to the standstill, so that this is all that it takes.
+    /// Whether the run lasts to its end, or to the standstill, so that this is all that it takes.
     pub is_all: bool,
 }
 

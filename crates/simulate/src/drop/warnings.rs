@@ -303,6 +303,9 @@ fn held_along(context: &Context) -> Option<Warning> {
 fn no_thrust(context: &Context) -> Option<Graded> {
     let machine = context.setup.machine;
     let rotor = machine.layout().rotor;
+    if !rotor.axial {
+        return None;
+    }
     let parts = (machine.constants.bearings.iter()).filter_map(|part| part.spatial());
     let landings: Vec<_> = parts.map(|own| &own.landing).collect();
     let faces: Vec<_> = landings.iter().flat_map(|own| &own.faces).collect();
@@ -321,13 +324,13 @@ fn no_thrust(context: &Context) -> Option<Graded> {
         true => "contact.gap_to_end",
         false => "contact.gap_to_start",
     };
-    let warning = match rotor.axial {
-        true if !stopped && moved > held => SpatialWarning::Leaves {
+    let warning = match !stopped && moved > held {
+        true => SpatialWarning::Leaves {
             moved,
             key: key.to_string(),
         },
-        true if faces.is_empty() => SpatialWarning::NoThrust { moved },
-        _ => return None,
+        false if faces.is_empty() => SpatialWarning::NoThrust { moved },
+        false => return None,
     };
     Some((moved, warning.into()))
 }
