@@ -249,7 +249,7 @@ pub fn lay_races(layout: &mut Layout, part: &AuxiliaryBearingConstants) -> [Body
         let shaft = layout.body(&part.name, "shaft", BodyAt::turning);
         let readings = layout.block(&part.name, READINGS.map(String::from));
         let outer = layout.body(&part.name, "housing", BodyAt::moving);
-        debug_assert!(readings.start == ARM && outer == HOUSING);
+        assert!(readings.start == ARM && outer == HOUSING);
         return [shaft, outer];
     }
     if part.spatial().is_some() {

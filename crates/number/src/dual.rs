@@ -132,9 +132,9 @@ impl<const K: usize> Real for Dual<K> {
         #[cfg(target_arch = "x86_64")]
         match Level::detect() {
             // SAFETY: the level was seen on this machine.
-            Level::Avx512 => return unsafe { x86::for_avx512(task) },
+            Level::Avx512 => return unsafe { x86::avx512::run(task) },
             // SAFETY: the same.
-            Level::Avx2 => return unsafe { x86::for_avx2(task) },
+            Level::Avx2 => return unsafe { x86::avx2::run(task) },
             Level::Baseline => {}
         }
         task.run()

@@ -34,7 +34,7 @@
 //!   machine lacks its instructions, or where it reaches memory that is not there. The vector types and their masks are private,
 //!   their only constructors are methods of [`Real`] and [`Mask`], and no public item names them: code outside has such a type
 //!   only as the parameter of a [`Task`], which [`Level::run_one`] and [`Level::run_many`] start after they asserted
-//!   `level <= Level::detect()`. Detection asks for exactly the features that `for_avx2` and `for_avx512` enable, AVX2 among those
+//!   `level <= Level::detect()`. Detection asks for exactly the features that `avx2::run` and `avx512::run` enable, AVX2 among those
 //!   of AVX-512, so that the order of the levels is one of inclusion. [`Dual`] calls these two functions in the branch of the
 //!   level that was detected. A value cannot outlive the machine.
 //! - **Loads and stores of vectors** (`x86.rs`). `Four` loads and stores four numbers through a slice of four that `get` returned,

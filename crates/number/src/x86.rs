@@ -32,8 +32,8 @@ pub struct Eight(__m512d);
 #[repr(transparent)]
 pub struct EightMask(__mmask8);
 
-/// The instructions of each unit, under one name.
-mod avx2 {
+/// The instructions of each unit, under one name. What is compiled for a unit stands in its module: a compiler works on modules side by side.
+pub(crate) mod avx2 {
     pub(super) use std::arch::x86_64::{
         _mm256_add_epi64 as add_bits, _mm256_add_pd as add, _mm256_and_pd as and,
         _mm256_and_si256 as and_bits, _mm256_andnot_pd as andnot, _mm256_castpd_si256 as to_bits,
@@ -43,8 +43,15 @@ mod avx2 {
         _mm256_sqrt_pd as sqrt, _mm256_srli_epi64 as right, _mm256_sub_pd as sub,
         _mm256_xor_pd as xor,
     };
+
+    /// Runs a task compiled for the unit.
+    #[inline(never)]
+    #[target_feature(enable = "avx2")]
+    pub(crate) fn run<T: crate::real::Vectorized>(task: T) -> T::Output {
+        task.run()
+    }
 }
-mod avx512 {
+pub(crate) mod avx512 {
     pub(super) use std::arch::x86_64::{
         _mm512_add_epi64 as add_bits, _mm512_add_pd as add, _mm512_and_pd as and,
         _mm512_and_si512 as and_bits, _mm512_andnot_pd as andnot, _mm512_castpd_si512 as to_bits,
@@ -54,12 +61,19 @@ mod avx512 {
         _mm512_sqrt_pd as sqrt, _mm512_srli_epi64 as right, _mm512_sub_pd as sub,
         _mm512_xor_pd as xor,
     };
+
+    /// Runs a task compiled for the unit.
+    #[inline(never)]
+    #[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
+    pub(crate) fn run<T: crate::real::Vectorized>(task: T) -> T::Output {
+        task.run()
+    }
 }
 
 /// Numbers of one width: what both units have alike, and in braces what they do not.
 // SAFETY of every block below: the types are reachable only on machines with the instructions, see the module.
 macro_rules! vector {
-    ($Type:ident($Vector:ty) by $unit:ident, $level:ident, lanes $lanes:literal, mask $Mask:ident, { $($own:tt)* }, { $($bits:tt)* }) => {
+    ($Type:ident($Vector:ty) by $unit:ident, lanes $lanes:literal, mask $Mask:ident, { $($own:tt)* }, { $($bits:tt)* }) => {
         operators!(
             [] $Type, |x, y|
             $Type(unsafe { $unit::add(x.0, y.0) }),
@@ -119,7 +133,7 @@ macro_rules! vector {
             #[inline(always)]
             fn vectorized<T: Vectorized>(task: T) -> T::Output {
                 // SAFETY: see the module.
-                unsafe { $level(task) }
+                unsafe { $unit::run(task) }
             }
             $($own)*
         }
@@ -172,7 +186,7 @@ macro_rules! vector {
     };
 }
 
-vector!(Four(__m256d) by avx2, for_avx2, lanes 4, mask FourMask, {
+vector!(Four(__m256d) by avx2, lanes 4, mask FourMask, {
     #[inline(always)]
     fn greater(self, other: Self) -> FourMask {
         // SAFETY: see the module.
@@ -190,7 +204,7 @@ vector!(Four(__m256d) by avx2, for_avx2, lanes 4, mask FourMask, {
         FourMask(unsafe { avx2::from_bits(avx2::left::<63>(avx2::to_bits(self.0))) })
     }
 });
-vector!(Eight(__m512d) by avx512, for_avx512, lanes 8, mask EightMask, {
+vector!(Eight(__m512d) by avx512, lanes 8, mask EightMask, {
     #[inline(always)]
     fn greater(self, other: Self) -> EightMask {
         // SAFETY: see the module.
@@ -322,16 +336,4 @@ impl Parts for Eight {
 #[inline(always)]
 fn first_lanes(count: usize) -> __mmask8 {
     ((1_u32 << count.min(8)) - 1) as u8
-}
-
-#[inline(never)]
-#[target_feature(enable = "avx2")]
-pub(crate) fn for_avx2<T: Vectorized>(task: T) -> T::Output {
-    task.run()
-}
-
-#[inline(never)]
-#[target_feature(enable = "avx2,avx512f,avx512dq,avx512vl")]
-pub(crate) fn for_avx512<T: Vectorized>(task: T) -> T::Output {
-    task.run()
 }

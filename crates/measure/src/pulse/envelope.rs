@@ -211,7 +211,7 @@ fn is_steady(swings: &[Swing]) -> bool {
             .fold((0.0f64, 0.0f64), |(first, second), swing| {
                 (first.max(swing.height), second.max(first.min(swing.height)))
             });
-        debug_assert!(first >= second);
+        assert!(first >= second);
         (least, largest) = (least.min(second), largest.max(second));
     }
     least > STEADY * largest

@@ -247,7 +247,7 @@ impl<R: Real> Machines<R> {
         }
         rate[layout.source(0)] = levitation.0 + in_space.magnet;
         rate[layout.source(1)] = torques.driving * rotor.spin;
-        debug_assert!(ROTOR_SOURCES.len() == 2);
+        const { assert!(ROTOR_SOURCES.len() == 2) };
         if let Some(source) = of_rotor.magnets {
             rate[layout.source(source)] = magnets;
         }
