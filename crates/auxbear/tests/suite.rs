@@ -47,6 +47,7 @@ mod signals_files;
 mod simulation;
 mod space;
 mod space_coast_down;
+mod space_limits;
 mod space_rows;
 mod speed_channel;
 mod studies;

@@ -94,6 +94,11 @@ impl BodyAt {
     pub const fn centre(self) -> [usize; 2] {
         [self.first, self.first + 1]
     }
+    /// Channel of its place along the axis, of a body with all six freedoms.
+    #[inline(always)]
+    pub const fn axial(self) -> usize {
+        self.first + 2
+    }
     /// Channels of their rates.
     #[inline(always)]
     pub const fn velocity(self) -> [usize; 2] {

@@ -1,6 +1,6 @@
 //! Limits of warnings: whether one came that must not.
 
-use crate::limits::is_of;
+use crate::limits::{RISING, is_of};
 use crate::{Judged, Outcome, Quantity, Scope, Value, Verdict, Warning};
 use problem::warning::{Declared, Evaluation};
 use problem::{Code, Result, did_you_mean};
@@ -95,6 +95,14 @@ pub fn unjudged(
     found.map(|(code, says)| format!("{code} is not evaluated ({says})"))
 }
 
+/// Whether some of these warnings may come of a run that goes on.
+pub fn may_come_later(forbids: &Forbidden, declared: &[&'static Declared]) -> bool {
+    declared.iter().any(|kind| {
+        let of_run = kind.evaluation == Evaluation::Each && kind.code != RISING;
+        of_run && forbids.meets(kind.code, kind.severity)
+    })
+}
+
 /// Their number in each member, 0 or 1, and why some are not known: the run ended early, or only the unperturbed member is evaluated.
 pub(super) fn values(
     scenario: &Scenario,
@@ -128,6 +136,8 @@ pub(super) fn values(
         let warned = |code: &str| outcome.warnings.iter().any(|own| own.code == code);
         unjudged(forbids, declared, warned)
     });
+    let grow = outcome.warnings.iter().find(|own| own.code == RISING);
+    let grow = grow.filter(|_| may_come_later(forbids, declared));
     let (known, why) = match unseen {
         _ if !outcome.stop.complete() => (0, outcome.stop.text.trim_end_matches('.').to_string()),
         _ if unknown.is_some() => (0, unknown.unwrap_or_default()),
@@ -135,6 +145,14 @@ pub(super) fn values(
             1,
             format!("{} is evaluated in the unperturbed member alone", kind.code),
         ),
+        _ if grow.is_some() => {
+            let own = grow.map_or(0, |own| match own.scope {
+                Scope::Each { count, .. } => count,
+                Scope::Alike | Scope::Unperturbed => all,
+            });
+            let why = format!("the force still grows when the run ends ({RISING})");
+            (all - own.min(all), why)
+        }
         _ => (all, "which of them it is in is not known".to_string()),
     };
     let mut values = vec![Some(1.0); least.min(all)];

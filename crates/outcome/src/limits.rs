@@ -21,8 +21,8 @@ pub use crate::whirl::{
     CONTACTS, NOT_LANDED, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked,
     whirl_sought,
 };
-pub use crate::withheld::{of_no_machine, undecided, withheld};
-use crate::withheld::{rises, warned};
+use crate::withheld::warned;
+pub use crate::withheld::{RISING, left_open, of_no_machine, undecided, withheld};
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
 use problem::{Code, Problem, Result, did_you_mean, question};
@@ -194,18 +194,17 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
         };
         let judged = forbidden::explained(judge(limit, unit, &values, &why), outcome);
         let judged = match seeks_whirl(limit, &outcome.quantities, declared) {
-            true => whirl_sought(judged, angles.len().max(1), slips_in(limit, outcome)),
+            true => whirl_sought(judged, angles.len().max(1), slips_in(outcome)),
             false => judged,
-        };
-        let judged = match rises(outcome, &limit.quantity) {
-            Some(why) => undecided(judged, why),
-            None => judged,
         };
         withheld(judged, no_machine.as_deref())
     };
     let limits = named(&scenario.limits_here(), &outcome.quantities);
     limits.iter().map(judged).collect()
 }
+
+/// Why members that ended as planned have no value.
+const LACKING: &str = "it does not exist in these, or still grows when they end (AB2423)";
 
 /// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while
 /// the run lasted, which is longer than the bound, is infinite: whenever it comes, the bound is passed.
@@ -217,10 +216,10 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
     let asked = outcome.work.members;
     if asked > 1 {
         let members = &outcome.members;
-        let mut values = members.limited(&quantity.name, bound, quantity.of_contacts);
+        let mut values = members.limited(limit, quantity.of_contacts);
         let why = match values.len() < asked {
             true => early(),
-            false => "it does not exist in these".to_string(),
+            false => LACKING.to_string(),
         };
         values.resize(asked, None);
         return (values, why);
@@ -250,7 +249,16 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
             (vec![Some(*value)], early())
         }
         (_, false) => (vec![None], early()),
-        (Value::Number(value), true) => (vec![Some(*value)], String::new()),
+        (Value::Number(value), true) => {
+            let mut open = left_open(&quantity.name);
+            let open = open.find(|(code, _)| warned(outcome, code, &quantity.name));
+            match open {
+                Some((_, why)) if limit.side.holds(sized(limit, *value), bound) => {
+                    (vec![None], why)
+                }
+                _ => (vec![Some(*value)], String::new()),
+            }
+        }
         (Value::Text(_) | Value::List(_), true) => {
             let why = "it is no number, and a limit holds one number".to_string();
             (vec![None], why)

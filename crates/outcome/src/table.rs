@@ -1,8 +1,9 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::limits::{NOT_LANDED, contacts_of};
+use crate::limits::{NOT_LANDED, contacts_of, left_open, sized};
 use crate::{Outcome, Value};
 use problem::explain;
+use scenario::Limit;
 use std::collections::BTreeMap;
 
 /// Members with what they drew and gave; what a member does not have is not a number.
@@ -252,9 +253,11 @@ impl Table {
             .collect()
     }
 
-    /// What a limit holds of a result in each member; `of_contacts` where a member without a contact has none of it.
-    pub fn limited(&self, name: &str, bound: f64, of_contacts: bool) -> Vec<Option<f64>> {
-        let mut values = self.decisive(name, bound);
+    /// What a limit holds of a result in each member; `of_contacts` where a member without a contact has none of it. None where a
+    /// warning leaves open what holds it.
+    pub fn limited(&self, limit: &Limit, of_contacts: bool) -> Vec<Option<f64>> {
+        let name = limit.quantity.as_str();
+        let mut values = self.decisive(name, limit.bound);
         let early = self.values(&format!("{WARNING}{NOT_LANDED}"));
         let touches = contacts_of(name).map(|names| names.map(|name| self.values(&name)));
         for (k, value) in values.iter_mut().enumerate() {
@@ -266,6 +269,13 @@ impl Table {
                 *value = Some(0.0);
             } else if whole && of_contacts {
                 *value = value.or(Some(0.0));
+            }
+        }
+        let holds = |value: f64| limit.side.holds(sized(limit, value), limit.bound);
+        for (code, _) in left_open(name) {
+            let warned = self.values(&format!("{WARNING}{code}"));
+            for (value, warned) in values.iter_mut().zip(warned) {
+                *value = value.filter(|value| warned.is_none() || !holds(*value));
             }
         }
         values

@@ -48,21 +48,18 @@ pub fn contacts_of(name: &str) -> Option<[String; 2]> {
 /// Says that a run ends before the rotor comes to a bearing.
 pub const NOT_LANDED: &str = "AB2424";
 
-/// Whether the bearing of a limit, or one of all of a limit of warnings, slips when a member ends.
-pub(crate) fn slips_in(limit: &Limit, outcome: &Outcome) -> bool {
+/// Whether a bearing slips when a member ends.
+pub(crate) fn slips_in(outcome: &Outcome) -> bool {
     let slips = |value: f64| value > 0.0;
-    slips_asked(limit, &outcome.quantities).any(|own| match &own.spread {
+    slips_asked(&outcome.quantities).any(|own| match &own.spread {
         Some(spread) => slips(spread.largest),
         None => outcome.number(&own.name).is_some_and(slips),
     })
 }
 
-/// The results that say whether bearings of a limit of whirl slip when a run ends.
-pub fn slips_asked<'a>(limit: &Limit, known: &'a [Quantity]) -> impl Iterator<Item = &'a Quantity> {
-    let name = limit.quantity.replace(WHIRL, SLIPS);
-    let all = limit.forbids.is_some();
-    let asked = move |own: &&Quantity| own.name == name || all && is_of(&own.name, SLIPS);
-    known.iter().filter(asked)
+/// The results that say whether bearings slip when a run ends: friction of any of them drives whirl in all.
+pub fn slips_asked(known: &[Quantity]) -> impl Iterator<Item = &Quantity> {
+    known.iter().filter(|own| is_of(&own.name, SLIPS))
 }
 
 /// Whether friction starts whirl depends on the angle of the unbalance at the release, and on slip until the race turns: a limit of

@@ -7,7 +7,7 @@ use super::face_heat::FaceHeat;
 use super::part::SpatialBearing;
 use super::spring::PreloadSpring;
 use crate::motion::Motion;
-use crate::system::sampling::Peak;
+use crate::system::sampling::{Growth, Peak};
 use smallvec::SmallVec;
 
 /// An ellipse that is cut off by the shoulder of its groove.
@@ -54,6 +54,10 @@ pub struct SpatialRecord {
     pub open_side: Option<OpenSide>,
     /// Largest force on the faces, N.
     pub axial_force: Peak,
+    /// When it last grew.
+    pub growth: Growth,
+    /// Largest displacement of the outer ring along the axis, m, at the ends of the steps.
+    pub outer_place: Peak,
     /// When a shoulder first met a face, s.
     pub first_axial_contact: Option<f64>,
     /// The last instant at which they touched, at the end of a step, s.
@@ -77,6 +81,8 @@ impl SpatialRecord {
             run_over: None,
             open_side: None,
             axial_force: Peak::NONE,
+            growth: Growth::default(),
+            outer_place: Peak::NONE,
             first_axial_contact: None,
             last_axial_contact: None,
             spring_forces: [Peak::NONE; 2],
@@ -88,6 +94,7 @@ impl SpatialRecord {
     /// Sees the faces at both ends of a step: penetrations, m, and the force at its end, N.
     pub fn faces(&mut self, times: [f64; 2], depths: [f64; 2], force: f64) {
         self.axial_force.raise(force, times[1]);
+        self.growth.watch(force, times[1]);
         if depths[1] > 0.0 {
             self.last_axial_contact = Some(times[1]);
         }

@@ -31,6 +31,26 @@ impl Peak {
     }
 }
 
+/// When a value last passed by far what it had been before.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Growth {
+    level: f64,
+    /// When, s; none before the first value above zero.
+    pub last: Option<f64>,
+}
+
+/// A value grows where it is so many times what it had been when it last grew.
+const GROWS: f64 = 1.05;
+
+impl Growth {
+    /// Takes a value at an instant, s.
+    pub fn watch(&mut self, value: f64, time: f64) {
+        if value > GROWS * self.level {
+            (self.level, self.last) = (value, Some(time));
+        }
+    }
+}
+
 /// Means of some probes over equal periods that end with the run, by trapezoids over the steps; and the range of a channel
 /// in each. Room is made before the run.
 #[derive(Clone, Debug, PartialEq)]

@@ -169,7 +169,7 @@ impl Study {
         if !limits::seeks_whirl(&judged.limit, &self.known, &declared) {
             return judged;
         }
-        let slips = limits::slips_asked(&judged.limit, &self.known).any(|own| {
+        let slips = limits::slips_asked(&self.known).any(|own| {
             let slips = table.values(&own.name);
             rows.iter().any(|row| slips[*row] > Some(0.0))
         });
@@ -264,7 +264,7 @@ fn rare(limit: &Limit, unit: &'static str, values: &[Option<f64>], weights: &[f6
 }
 
 /// Why a member has no value.
-const LACKING: &str = "they failed, or have no such result";
+const LACKING: &str = "they failed, have no such result, or still grow when they end (AB2423)";
 
 /// A limit judged: by the bounds of a share where members are a sample, else by counting.
 fn limit_of(

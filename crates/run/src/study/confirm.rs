@@ -3,7 +3,7 @@
 use super::Study;
 use super::table::{CONFIRMED, Column, LATE, STOPPED, Table, warned_of};
 use crate::Options;
-use outcome::forbidden::{not_evaluated, unjudged};
+use outcome::forbidden::{may_come_later, not_evaluated, unjudged};
 use outcome::list::NOT_GIVEN;
 use outcome::{Value, limits};
 use scenario::Limit;
@@ -78,14 +78,14 @@ impl Study {
                 let unjudged = || unjudged(forbids, &declared, |code| table.warns(code));
                 match not_evaluated(forbids, &declared, &known).or_else(unjudged) {
                     Some(_) => vec![None; table.members.len()],
-                    None => warned_of(table, forbids),
+                    None => warned_of(table, forbids, may_come_later(forbids, &declared)),
                 }
             }
             None => {
                 let mut known = self.known.iter();
                 let known = known.find(|known| known.name == limit.quantity);
                 let of_contacts = known.is_some_and(|known| known.of_contacts);
-                let values = table.limited(&limit.quantity, limit.bound, of_contacts);
+                let values = table.limited(limit, of_contacts);
                 let sized = |value: f64| limits::sized(limit, value);
                 // what was broken when a run stopped stays so
                 let stopped = table.values(&format!("{STOPPED}{}", limit.quantity));

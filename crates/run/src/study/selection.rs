@@ -214,7 +214,7 @@ impl Study {
             return Some(why);
         }
         let mut never = NEVER.iter().filter_map(|(code, why)| {
-            let warned = warned_of(table, &Forbidden::Code(code.to_string()));
+            let warned = warned_of(table, &Forbidden::Code(code.to_string()), false);
             let some = rows.iter().filter(|row| warned[**row] == Some(1.0)).count();
             (some > 0).then(|| format!("{why} in {some} of {draws} draws ({code})"))
         });

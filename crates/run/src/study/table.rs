@@ -2,6 +2,7 @@
 
 use crate::warnings::rank;
 use outcome::Severity;
+use outcome::limits::RISING;
 pub use outcome::table::{CONFIRMED, Column, LATE, STOPPED, Table, WARNING};
 use scenario::Forbidden;
 
@@ -36,8 +37,10 @@ impl Warned {
     }
 }
 
-/// Whether each member has a warning of these, 1 or 0; not known of those that failed without one.
-pub(super) fn warned_of(table: &Table, forbids: &Forbidden) -> Vec<Option<f64>> {
+/// Whether each member has a warning of these, 1 or 0; not known of those that failed without one, nor, of warnings that may come
+/// later, of those in which the force still grows.
+pub(super) fn warned_of(table: &Table, forbids: &Forbidden, later: bool) -> Vec<Option<f64>> {
+    let grows = table.values(&format!("{WARNING}{RISING}"));
     let meets = |column: &&Column| {
         let code = column.name.strip_prefix(WARNING);
         code.is_some_and(|code| forbids.meets(code, rank(code).0))
@@ -47,6 +50,7 @@ pub(super) fn warned_of(table: &Table, forbids: &Forbidden) -> Vec<Option<f64>> 
         let has = columns.iter().any(|column| !column.values[row].is_nan());
         match has {
             true => Some(1.0),
+            false if later && grows[row].is_some() => None,
             false => (!table.failed.contains_key(member)).then_some(0.0),
         }
     };

@@ -218,6 +218,7 @@ impl Context<'_> {
                 AXIAL,
                 "levitation.axial_stiffness",
                 "levitation.axial_damping",
+                "rotor.axial_clearance",
             ];
             let given = |path: &&str| self.values.number(path).is_some_and(|value| value != 0.0);
             let forces = match &drop.body {

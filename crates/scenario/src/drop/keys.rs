@@ -99,6 +99,8 @@ pub(crate) const KEYS: &[Key] = &[
         .positive().optional("the amounts of [[rotor.unbalance]] count as they are").only(SHAFT) },
     Key::new("rotor.balance_planes", Kind::Texts, "[\"drive_end\", \"other_end\"]", "Names of the two [[rotor.node]] in whose planes rotor.balance_grade leaves residual unbalance: shares by the levers of the mass centre, angles on the rotor drawn from repeat.seed.")
         .optional("rotor.balance_grade scales the amounts of [[rotor.unbalance]]").only(SHAFT),
+    Key::new("rotor.axial_clearance", Kind::Quantity("m"), "0.4 mm", "How far the rotor may move along its axis, to either side, until something besides its bearings stops it: an axial magnet, an impeller, a labyrinth. It needs a bearing with bearing.fidelity = \"spatial\".")
+        .positive().optional("whether the rotor strikes something along its axis is not judged").only(MACHINE),
     Key::new("gravity.acceleration", Kind::Quantity("m/s^2"), "9.81 m/s^2", "Acceleration of gravity in the plane of the bearing. Of an inclined shaft less is left of it, of a vertical one nothing: the rest is gravity.axial, without which the axial drop is not described and a run warns.")
         .not_negative().default("9.81 m/s^2", "usual rounded value near sea level"),
     Key::new("gravity.direction", Kind::Quantity("rad"), "-90 deg", "Direction of gravity, from x.").default("-90 deg", "downwards"),

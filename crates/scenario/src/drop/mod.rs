@@ -112,6 +112,8 @@ pub struct Rotor {
     pub planes: u32,
     /// First free-free bending natural frequency, rad/s.
     pub first_bending_frequency: Option<f64>,
+    /// How far it may move along its axis, m.
+    pub axial_clearance: Option<f64>,
 }
 
 /// What happens to the spin of the rotor after the release.
@@ -450,6 +452,7 @@ fn rotor(rotor: &Section<'_>, bends: bool) -> Rotor {
             false => rotor.count("planes") as u32,
         },
         first_bending_frequency: rotor.maybe("first_bending_frequency"),
+        axial_clearance: rotor.maybe("axial_clearance"),
     }
 }
 

@@ -136,6 +136,7 @@ impl<'a> Again<'a> {
             let ends = contacts
                 .filter(|own| own.start <= end)
                 .map(|own| own.end.unwrap_or(end).min(end));
+            let ends = ends.chain(seen.on_face);
             let contact = ends.filter(|last| *last >= time).reduce(f64::max);
             let last = [outside, contact]
                 .into_iter()
@@ -301,6 +302,17 @@ pub(super) fn never(context: &Context) -> Vec<Warning> {
     list
 }
 
+/// When the last event or shock before an instant came, s; the start without one.
+pub(super) fn last_before(context: &Context, before: f64) -> f64 {
+    let given = context.setup.drop().shaft.as_deref();
+    let times = given.into_iter().flat_map(events);
+    let times = times.filter_map(|event| time_of(event.when, context));
+    let bases = context.setup.machine.constants.base.iter();
+    let shocks = bases.flat_map(|base| &base.shocks).map(|own| own.start);
+    let past = times.chain(shocks).filter(|time| *time <= before);
+    past.fold(0.0, f64::max)
+}
+
 /// What happens so shortly before the end that the contacts which follow would come after it.
 pub(super) fn cut_off(context: &Context) -> Vec<Warning> {
     let Some(given) = context.setup.drop().shaft.as_deref() else {
@@ -376,7 +388,7 @@ origins! {
     CURRENT: law "largest current of one of the coils, of a linear magnet largest control current, at the ends of steps, until the end of the run or the next loss of all power",
         source "crates/model/src/system/machine/record.rs",
         valid "as the run";
-    CONTACT: law "end of the last contact in any bearing, until the end of the run or the next loss of all power",
+    CONTACT: law "end of the last contact with the bore or a face of any bearing, until the end of the run or the next loss of all power",
         source "crates/model/src/contact.rs",
         valid "as the run";
 }

@@ -179,9 +179,14 @@ fn largest_voltage(given: &Shaft, axis: usize) -> Option<f64> {
 pub(crate) fn touched(context: &Context, k: usize) -> Option<(f64, Warning)> {
     context.setup.controlled()?;
     let lost = context.release_time().unwrap_or(f64::INFINITY);
-    let mut contacts = context.record(k).contacts.iter();
-    let first = contacts.find(|contact| contact.start < lost)?;
-    let time = first.start;
+    let record = context.record(k);
+    let bore = record.contacts.first().map(|first| first.start);
+    let face = record
+        .spatial
+        .as_deref()
+        .and_then(|own| own.first_axial_contact);
+    let first = bore.into_iter().chain(face).reduce(f64::min);
+    let time = first.filter(|first| *first < lost)?;
     let warning = ShaftWarning::TouchesWithPower { time };
     Some((lost - time, warning.into()))
 }

@@ -272,6 +272,9 @@ results! {
         "peak_axial_force": number "N" headline, AXIAL, "largest force between shoulder and face" in tile "Peak axial force" when setup.stops() => {
             run.space(|own| own.first_axial_contact.map(|_| own.axial_force.value))
         };
+        "max_mount_axial_displacement": number "m", MOUNT_ALONG, "largest displacement of the outer ring along the axis" in note "Peak axial force: outer ring moves by" when setup.stops() => {
+            run.record.spatial.as_ref().map_or(f64::NAN, |own| own.outer_place.value)
+        };
         "axial_force_at_end": number "N", AXIAL, "force between shoulder and face at the end" in note "Peak axial force: at the end [N]" when setup.stops() => run.axial_force_at_end();
         "face_temperature_rise": number "K", FACE_HEAT, "largest mean rise of shoulder and face" in note "Peak axial force: mean rise of the face [K]" when setup.stops() => {
             run.space(|own| own.first_axial_contact.map(|_| own.face_heat.rise.value))
@@ -308,10 +311,10 @@ results! {
         "max_rotor_race_displacement": number "m", DISPLACEMENT, "largest distance of the rotor from the inner race's centre" => {
             run.record.rotor_race_displacement.value
         };
-        "max_rotor_displacement": number "m", ROTOR_DISPLACEMENT, "largest displacement of the rotor in contact" in tile "Largest rotor displacement" => {
+        "max_rotor_displacement": number "m", ROTOR_DISPLACEMENT, "largest displacement of the rotor across its axis in contact" in tile "Largest rotor displacement" => {
             touched(run.record.contacts.first().map(|_| run.record.rotor_displacement.value))
         };
-        "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race" => run.record.mount_displacement.value;
+        "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race across its axis" => run.record.mount_displacement.value;
         "whirl_direction": text "" headline, WHIRL, "direction of whirl" => run.whirl_direction();
         "whirl_turns": number "", WHIRL, "net turns of whirl about the inner race" => run.record.whirl_turns;
         "travel_index": number "1", TRAVEL, "longest way of the rotor in one turn over that of full whirl" => run.per_turn(run.record.travel.longest, 2.0 * PI);
@@ -462,6 +465,9 @@ origins! {
     MOUNT_DISPLACEMENT: law "largest |c_o|, at the steps and, near the record, on dense output between them",
         source EQUATIONS,
         valid "below a tenth of the bearing's size";
+    MOUNT_ALONG: law "largest displacement of the outer ring along its axis from where it is at rest, at the ends of steps",
+        source "crates/model/src/system/machine/bearing_record.rs",
+        valid "mount.axial_stiffness, linear at any displacement";
     ROTOR_DISPLACEMENT: law "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
         source EVENT,
         valid "compare it with seals and other air gaps at this plane";

@@ -8,11 +8,13 @@ use crate::drop::shaft::{BuiltShaft, HeldMode, least_cutoff};
 use crate::drop::warning_table::{ShaftWarning, compared};
 use crate::drop::{Shaft, housings};
 use crate::rotor::RotorModel;
+use model::system::sampling::Peak;
 use outcome::columns::columns;
 use outcome::list::results;
 use outcome::list::{List, not_given, origins};
 use outcome::{Column, Warning};
 use physics::magnet::Magnet;
+use scenario::drop::Rotor;
 use scenario::{AuxiliaryBearing, CUTOFFS};
 
 /// The results that only a flexible rotor has.
@@ -44,6 +46,9 @@ pub(crate) fn name(list: &mut List, setup: Setup, run: Option<&Context>) {
     drawing::name(list, &given.model, &housed.collect::<Vec<_>>());
     positions(list, &(), run.map(|_| &bent));
     displacements(list, &(), run);
+    if setup.machine.layout().rotor.axial {
+        along(list, &setup.drop().rotor, run);
+    }
     clearances_along(list, &(), run.map(|_| &bent));
     housings::name(list, setup, run);
 }
@@ -80,6 +85,15 @@ results! {
             let along = run.setup.bent().map_or(0, |(_, built)| built.places.len());
             run.finished.record.places[..along].iter().map(|peak| peak.value).collect::<Vec<_>>()
         };
+    }
+    /// Of a rotor that moves along its axis.
+    fn along(given: &Rotor, run: &Context) {
+        "max_rotor_axial_displacement": number "m", ALONG, "largest displacement of the rotor along its axis" in tile "Largest axial displacement" => {
+            run.finished.record.axial.value
+        };
+        "rotor_axial_clearance": number "m", GIVEN, "how far the rotor may move along its axis" in note "Largest axial displacement: clearance", unless {
+            not_given("rotor.axial_clearance", given.axial_clearance)
+        } => given.axial_clearance.unwrap_or(f64::NAN);
     }
     /// What stands around the shaft.
     fn clearances_along(setup: &(), bent: &Bent) {
@@ -172,6 +186,18 @@ pub(crate) fn reached(context: &Context, node: usize) -> Option<(f64, Warning)> 
         clearance,
     };
     (peak.value >= clearance).then(|| (peak.value - clearance, warning.into()))
+}
+
+/// A rotor that moves farther along its axis than it may.
+pub(crate) fn strikes(context: &Context) -> Option<(f64, Warning)> {
+    let clearance = context.setup.drop().rotor.axial_clearance?;
+    let Peak { value, time } = context.finished.record.axial;
+    let warning = ShaftWarning::Strikes {
+        displacement: value,
+        time,
+        clearance,
+    };
+    (value >= clearance).then(|| (value - clearance, warning.into()))
 }
 
 /// Modes that are too few for impacts.
@@ -335,6 +361,9 @@ origins! {
     DISTANCE: law "clearance of the node less its largest displacement, against the housing that it is of; negative: the rotor reaches what stands there",
         source "crates/model/src/system/machine/record.rs",
         valid "what stands around the rotor is centred on the line of levitation and touches nothing else";
+    ALONG: law "largest distance of the rotor along its axis from where it is levitated, at the ends of steps",
+        source "crates/model/src/system/machine/record.rs",
+        valid "a rotor that is rigid along its axis";
     HELD: law "eigenvalues of the rotor on its magnets with their controllers, or on its supports, at the speed of the release, up to three \
           times that speed; positive turns with the spin",
         source "crates/levitation/src/closed_loop.rs, crates/rotor/src/modes.rs",

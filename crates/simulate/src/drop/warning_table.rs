@@ -60,7 +60,7 @@ problem::warnings! {
         Bushing { friction: "1" } "AB2330" Uncertain, each
             ("The rotor rubs on a bushing with a friction coefficient of {friction}: no race comes to speed and ends that, so friction drives backward whirl for as long as the rotor turns. Whether a blow starts it depends on friction, damping and the release: vary them (--repeat). What warming and wear do to friction and clearance is not followed.");
         StillRising { force: "N", time: "s" } "AB2423" Uncertain, each
-            ("The largest contact force of this run ({force:.0} N) comes at its end ({:.1} ms): it may rise further, and what follows from it too. A longer run.duration shows it.", 1e3 * time);
+            ("The force of rotor and bearing still grows in the second half of this run, last at {:.1} ms (largest {force:.0} N): it may rise further, and what follows from it too. A longer run.duration shows it.", 1e3 * time);
         NotLanded "AB2424" Uncertain, each
             ("The rotor does not come to this bearing before the run ends, and no magnet holds it: what it does to the bearing is not in this run. A longer run.duration shows it.");
         LayerIsWarm { since: "s", through: "s" } "AB2331" Uncertain, each
@@ -73,6 +73,8 @@ problem::warnings! {
     pub enum ShaftWarning {
         Rub { part: text, displacement: "m", time: "s", clearance: "m" } "AB2030" Destroys, each by "clearance_positions"
             ("At {part} the rotor moves by up to {:.0} µm ({:.2} ms), beyond the clearance of {:.0} µm: it touches what stands there, and this contact is not computed.", 1e6 * displacement, 1e3 * time, 1e6 * clearance);
+        Strikes { displacement: "m", time: "s", clearance: "m" } "AB2425" Destroys, each by "rotor_axial_clearance"
+            ("The rotor moves by up to {:.0} µm along its axis ({:.2} ms), beyond rotor.axial_clearance of {:.0} µm: it strikes what stands there, and this contact is not computed.", 1e6 * displacement, 1e3 * time, 1e6 * clearance);
         FewModes { cutoff: "rad/s", needed: "rad/s" } "AB2031" Invalid
             ("rotor.cutoff = {cutoff:.0} rad/s keeps fewer modes than impacts bend: forces may be wrong by a factor. Ten times the speed or the first bending mode, {needed:.0} rad/s, is the least; compare with twice that.");
         Resonance { speed: "rad/s", held: words, frequency: "rad/s", amplification: "1", size: words } "AB2032" Invalid, each

@@ -19,8 +19,8 @@ use scenario::{AuxiliaryBearing, DRAWN_ON, Event, Feedback, Fidelity, Moment, Sc
 
 /// Share of the largest load of a ball that one may carry for an instant beyond the bottom of its groove.
 const OF_OPEN_SIDE: f64 = 0.05;
-/// Share of a run at its end in which a largest force is one that may rise further.
-const LATE: f64 = 0.01;
+/// Share of the time since the first contact, or the last event, after which a force that still grows may rise further.
+const LATE: f64 = 0.5;
 /// Contacts after which pocket and bounce chaos shows in the later ones.
 const CHAOTIC_CONTACTS: usize = 10;
 /// Hunt-Crossley damping a·ḋ above which the law leaves its valid range.
@@ -56,6 +56,7 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
     for node in 0..shaft_results::clearances(context) {
         list.extend(graded(shaft_results::reached(context, node)));
     }
+    list.extend(graded(shaft_results::strikes(context)));
     list.extend(each(&|k| graded(magnets::touched(context, k))));
     list.extend(graded(events::not_held(context)));
     list.extend(events::never(context));
@@ -335,11 +336,10 @@ fn no_thrust(context: &Context) -> Option<Graded> {
     Some((moved, warning.into()))
 }
 
-/// A run that ends before the rotor comes to a bearing, or while the force on it rises.
+/// A run that ends before the rotor comes to a bearing, or while the force on it grows.
 fn too_short(context: &Context, k: usize) -> Option<Graded> {
     let drop = context.setup.drop();
     let record = context.record(k);
-    let on_face = (record.spatial.as_ref()).is_some_and(|own| own.first_axial_contact.is_some());
     let held = match context.setup.controlled() {
         Some(given) => {
             context.finished.record.lost.is_none() || given.events.iter().any(Event::relevitates)
@@ -349,12 +349,26 @@ fn too_short(context: &Context, k: usize) -> Option<Graded> {
     if drop.coast_down.is_some() || held {
         return None;
     }
-    let end = context.finished.ending.time;
-    match record.peak_contact_force() {
-        Some(Peak { value: force, time }) => (time > end - LATE * (end - context.counted_from()))
-            .then(|| (force, DropWarning::StillRising { force, time }.into())),
-        None => (!on_face).then(|| (0.0, DropWarning::NotLanded.into())),
+    let bore = record.contacts.first().map(|first| {
+        let largest = record.peak_contact_force().map_or(0.0, |peak| peak.value);
+        (first.start, record.growth.last, largest)
+    });
+    let face = record.spatial.as_deref().and_then(|own| {
+        let first = own.first_axial_contact?;
+        Some((first, own.growth.last, own.axial_force.value))
+    });
+    if bore.or(face).is_none() {
+        return Some((0.0, DropWarning::NotLanded.into()));
     }
+    let end = context.finished.ending.time;
+    let event = events::last_before(context, end);
+    let grows = |(first, last, force): (f64, Option<f64>, f64)| {
+        let from = first.max(event);
+        let time = last.filter(|last| *last > from + LATE * (end - from))?;
+        Some((force, DropWarning::StillRising { force, time }.into()))
+    };
+    let mut both = bore.into_iter().chain(face);
+    both.find_map(grows)
 }
 
 /// Balls that traction cannot turn.

@@ -22,7 +22,7 @@ use crate::surface_heat::{Motions, Seen, SurfaceHeat};
 use crate::system::race_record::{RaceRecord, Seen as BallsSeen};
 use crate::system::rig::Drive;
 use crate::system::rig::layout::DRIVE_HEAT;
-use crate::system::sampling::{Peak, Rise};
+use crate::system::sampling::{Growth, Peak, Rise};
 use number::Vec2;
 use solve::Step;
 use std::f64::consts::PI;
@@ -50,11 +50,13 @@ pub struct BearingRecord {
     pub largest_bearing_load: Peak,
     /// Largest force on the mount, N.
     pub largest_mount_force: Peak,
+    /// When the normal force of rotor and race last grew.
+    pub growth: Growth,
     /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
     pub rotor_race_displacement: Peak,
     /// Largest distance of the rotor's geometric centre from the line of levitation while it touches the race, m.
     pub rotor_displacement: Peak,
-    /// Largest displacement of the outer race, m.
+    /// Largest displacement of the outer race across its axis, m.
     pub mount_displacement: Peak,
     /// What the parts of its mount besides spring and damper have done; none without such parts.
     pub mount_parts: Option<MountPeaks>,
@@ -161,6 +163,7 @@ impl BearingRecord {
             largest_land_force: Peak::NONE,
             largest_bearing_load: Peak::NONE,
             largest_mount_force: Peak::NONE,
+            growth: Growth::default(),
             rotor_race_displacement: Peak::NONE,
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
@@ -254,6 +257,8 @@ impl BearingRecord {
                 [step.start_probe(depth), step.end_probe(depth)],
                 step.end_probe(at.probe(AXIAL_FORCE)),
             );
+            own.outer_place
+                .raise(step.end_state(at.outer.axial()).abs(), time);
             let bearing = step.machine.constants.bearings[self.bearing].spatial();
             if let Some((bearing, spring)) = bearing.and_then(|own| Some((own, own.spring?))) {
                 let slid = step.end_state(at.own().start + bearing.sliding_state());
@@ -266,6 +271,7 @@ impl BearingRecord {
             }
         }
         let normal = at.probe(NORMAL_FORCE);
+        self.growth.watch(step.end_probe(normal), time);
         self.impulse += 0.5 * length * (step.start_probe(normal) + step.end_probe(normal));
         let spins = [
             step.start_state(at.inner.spin()),
@@ -287,6 +293,11 @@ impl BearingRecord {
                 }
             }
         }
+    }
+
+    /// Whether the rotor is on a face at the end of a step.
+    pub(super) fn is_on_face(&self, step: &Step<RotorMachine>) -> bool {
+        self.spatial.is_some() && step.end_probe(self.at.probe(AXIAL_PENETRATION)) > 0.0
     }
 
     /// A step on a rig: largest values are those at its ends.

@@ -5,7 +5,7 @@
 
 pub use super::bearing_record::{BearingRecord, Contact};
 use super::{MOST_SPEEDS, Mode, RotorMachine};
-use crate::rotor::GeometricCentre;
+use crate::rotor::{GeometricCentre, RotorAt};
 use crate::system::energy::Content;
 use crate::system::rig::Tap;
 use crate::system::rig::record::RigRecord;
@@ -21,6 +21,8 @@ pub struct Record {
     rig: Option<Box<RigRecord>>,
     /// Largest kinetic energy of the rotor's centre, J.
     pub largest_translation: f64,
+    /// Largest displacement of the rotor along its axis, m, at the ends of the steps.
+    pub axial: Peak,
     /// Largest displacement of the rotor at each watched place, m; seen at 64 points a turn.
     pub places: Vec<Peak>,
     /// Largest force of each housing on its mount besides what this carries at rest, N; seen there too.
@@ -72,6 +74,8 @@ pub struct Levitated {
     pub until: Option<f64>,
     /// When it was last outside each share of a clearance within which it is to stay, s.
     pub outside: Vec<Option<f64>>,
+    /// When it was last on a face, s.
+    pub on_face: Option<f64>,
     /// Largest current of a coil, A.
     pub coil: Peak,
     /// When a coil of each axis was at its limit.
@@ -146,6 +150,7 @@ impl Record {
                 .collect(),
             rig: RigRecord::new(machine, end, taps).map(Box::new),
             largest_translation: 0.0,
+            axial: Peak::NONE,
             places: vec![Peak::NONE; machine.constants.rotor.places.len()],
             on_ground: vec![Peak::NONE; machine.constants.rotor.housings],
             currents: match machine.controlled() {
@@ -248,6 +253,7 @@ impl Record {
             return;
         }
         let (machine, time, length) = (step.machine, step.end, step.end - step.start);
+        let on_face = self.bearings.iter().any(|own| own.is_on_face(step));
         let state = step.leading_state(1.0, machine.layout().magnets.end);
         let [powered, _] = machine.powered(state);
         if powered {
@@ -276,6 +282,9 @@ impl Record {
             }
         }
         if let Some(again) = again {
+            if on_face {
+                again.on_face = Some(time);
+            }
             let away = (0..self.bearings.len()).map(|k| {
                 let clearance = machine.constants.bearings[k].contact.radial_clearance;
                 let [ground, _] = machine.ground(k, state);
@@ -355,6 +364,10 @@ impl Observer<RotorMachine> for Record {
             bearing.warmth_of(step);
             bearing.balls_of(step);
         }
+        if let rotor @ RotorAt { axial: true, .. } = step.machine.layout().rotor {
+            self.axial
+                .raise(step.end_state(rotor.place()).abs(), step.end);
+        }
         self.rotor_of(step);
         self.currents_of(step);
         if at_pole(step) {
@@ -396,6 +409,7 @@ impl Observer<RotorMachine> for Record {
                     since: time,
                     until: None,
                     outside: vec![None; self.within.len()],
+                    on_face: None,
                     coil: Peak::NONE,
                     limited: vec![AtLimit::NEVER; self.currents.len()],
                 }),
