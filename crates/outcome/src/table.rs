@@ -294,8 +294,10 @@ impl Table {
     /// The results of a member by its row.
     pub fn row(&self, row: usize) -> impl Iterator<Item = (&str, Option<f64>)> {
         let results = self.columns[self.inputs..].iter();
-        let results = results
-            .filter(|column| !(column.name.starts_with(LATE) || column.name.starts_with(STOPPED)));
+        let results = results.filter(|column| {
+            let besides = [LATE, STOPPED, WARNING];
+            !besides.iter().any(|own| column.name.starts_with(own))
+        });
         results.map(move |column| {
             let value = Some(column.values[row]).filter(|value| value.is_finite());
             (column.name.as_str(), value)

@@ -64,6 +64,8 @@ pub(crate) struct Lane<'m, M: Machine> {
     pub step_end: f64,
     pub mode: M::Mode,
     pub next_landing: usize,
+    /// The instant to land on next, s.
+    pub next_due: f64,
     pub after_rejection: bool,
     pub retake: Option<Retake>,
     /// Whether the step just accepted ended on a state event.
@@ -77,7 +79,7 @@ pub(crate) struct Lane<'m, M: Machine> {
 impl<'m, M: Machine> Lane<'m, M> {
     pub fn of(start: &Start<'m, '_, M>) -> Self {
         let (machine, settings) = (&start.machine, start.settings);
-        Lane {
+        let mut lane = Lane {
             machine: machine.clone(),
             observer: start.observer,
             settings,
@@ -89,15 +91,18 @@ impl<'m, M: Machine> Lane<'m, M> {
             mode: machine.start_mode(),
             // landings before the start are past
             next_landing: (machine.landings()).partition_point(|instant| *instant < settings.start),
+            next_due: f64::INFINITY,
             after_rejection: false,
             retake: None,
             crossed: false,
             work: Work::default(),
             pause: None,
             told: false,
-        }
+        };
+        lane.next_due = lane.due();
+        lane
     }
-    /// The next instant to land on, s.
+    /// The next instant to land on in the mode as it is now, s.
     pub fn due(&self) -> f64 {
         self.machine.due(&self.mode, self.next_landing)
     }
@@ -107,6 +112,7 @@ impl<'m, M: Machine> Lane<'m, M> {
     }
     /// After a jump of the mode or the state.
     pub fn jumped<R: Real>(&mut self, work: &mut Workspace<R>, lane: usize) {
+        self.next_due = self.due();
         if self.machine.starts_afresh() {
             self.length = self.settings.first_step;
             self.after_rejection = false;
@@ -126,13 +132,16 @@ impl<'m, M: Machine> Lane<'m, M> {
             return;
         }
         let steps = self.work.accepted + self.work.rejected;
-        // far from the end after many steps: at this pace the limit would be passed many times over
-        let share = (self.time - settings.start) / (settings.end - settings.start);
-        let hopeless = steps >= (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST)
-            && (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0;
-        if steps >= settings.step_limit || hopeless {
-            self.pause = Some(Pause::Ended(Stop::StepLimit { share }));
-            return;
+        let many = (settings.step_limit / HOPELESS_PART).max(HOPELESS_LEAST);
+        if steps >= many.min(settings.step_limit) {
+            // far from the end after many steps: at this pace the limit would be passed many times over
+            let share = (self.time - settings.start) / (settings.end - settings.start);
+            if steps >= settings.step_limit
+                || (HOPELESS_FACTOR * HOPELESS_PART) as f64 * share < 1.0
+            {
+                self.pause = Some(Pause::Ended(Stop::StepLimit { share }));
+                return;
+            }
         }
         self.length = self.length.min(settings.largest_step);
         let scale = self.time.abs().max(settings.end.abs());
@@ -146,7 +155,7 @@ impl<'m, M: Machine> Lane<'m, M> {
         if self.retake.is_some() {
             return;
         }
-        let target = self.due().min(self.until).min(settings.end);
+        let target = self.next_due.min(self.until).min(settings.end);
         let remaining = target - self.time;
         self.step_end = if self.length >= remaining {
             target

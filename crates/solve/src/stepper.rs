@@ -390,7 +390,7 @@ impl<'m, R: Real, B: Batch<R>, S: Method<R, B>> Stepper<'m, R, B, S> {
         for (index, lane) in self.lanes.iter_mut().enumerate() {
             let crossed = std::mem::take(&mut lane.crossed);
             let stood = lane.told && lane.pause.is_some();
-            if stood || !crossed && lane.due() > lane.time {
+            if stood || !crossed && lane.next_due > lane.time {
                 continue;
             }
             self.scratch.take(&self.work, index);

@@ -103,7 +103,7 @@ fn choices(path: &str) -> Vec<String> {
             "bearing.contact_angle=15 deg",
             "bearing.arrangement=DT",
         ],
-        "gravity.axial" | "levitation.axial_stiffness" | "levitation.axial_damping" => &[
+        _ if path.contains(".axial") && !path.starts_with("bearing.") => &[
             "bearing.fidelity=spatial",
             "levitation.axial_stiffness=1 MN/m",
             "contact.gap_to_end=0.2 mm",

@@ -83,6 +83,9 @@ pub enum Bearing<R: Real> {
     Spatial,
 }
 
+/// So many balls are computed before the first of them is seen: roots and divisions of one keep no other waiting.
+const AT_ONCE: usize = 8;
+
 impl BearingConstants {
     /// Number of balls.
     pub fn balls(&self) -> usize {
@@ -395,10 +398,24 @@ impl BearingConstants {
                     );
                 });
             }
-            _ => (0..self.balls()).for_each(|ball| {
-                let (azimuth, contacts) = self.contacts(motion, state, ball);
-                see(ball, azimuth, contacts);
-            }),
+            _ => {
+                let all = self.balls();
+                for from in (0..all).step_by(AT_ONCE) {
+                    let balls = from..all.min(from + AT_ONCE);
+                    let none = SlidingContact {
+                        slip: 0.0,
+                        load: 0.0,
+                        entrainment: 0.0,
+                    };
+                    let mut found = [(0.0, [none; 2]); AT_ONCE];
+                    for (own, ball) in found.iter_mut().zip(balls.clone()) {
+                        *own = self.contacts(motion, state, ball);
+                    }
+                    for (ball, (azimuth, contacts)) in balls.zip(found) {
+                        see(ball, azimuth, contacts);
+                    }
+                }
+            }
         }
     }
     /// Azimuth of a ball, rad, and its contacts at the inner and at the outer race; a ball that rolls has no slip.

@@ -41,6 +41,9 @@ pub struct OpenSide {
 /// Contact angle beyond which a ball of a row with an angle is on the other side of the groove's bottom, rad.
 pub const OPEN: f64 = 0.05;
 
+/// Load under which no edge of a shoulder marks a ball, N.
+const LEAST_LOAD: f64 = 1.0;
+
 /// Everything kept of a bearing in space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SpatialRecord {
@@ -150,7 +153,8 @@ impl SpatialRecord {
                     }
                 }
                 let half = touch.half_axis / bearing.rows[row].ball.radius;
-                let beyond = (bearing.groove_ends).is_some_and(|ends| angle + half > ends[race]);
+                let beyond = load > LEAST_LOAD
+                    && (bearing.groove_ends).is_some_and(|ends| angle + half > ends[race]);
                 if beyond && self.run_over.is_none() {
                     self.run_over = Some(RunOver {
                         time,

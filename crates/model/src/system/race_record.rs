@@ -213,15 +213,22 @@ impl RaceSeen {
         let distance = to.0 - from.0;
         let pieces = distance.abs().ceil().max(1.0);
         let each = distance.abs() / pieces;
-        for piece in 0..pieces as usize {
+        // signed integers: what turns them into numbers and back is one instruction each
+        for piece in 0..pieces as i64 {
             let share = (piece as f64 + 0.5) / pieces;
             let turns = (from.0 + share * distance) * (1.0 / POINTS as f64);
-            let point = ((turns - turns.floor()) * POINTS as f64) as usize;
+            let point = ((turns - whole_below(turns)) * POINTS as f64) as i64 as usize;
             // rounding may reach the end
             self.sums[first + point.min(POINTS - 1)] +=
                 each * (cubes[0] + share * (cubes[1] - cubes[0]));
         }
     }
+}
+
+/// The largest whole number that is not above a number below 2^63 in size, without the call that `floor` is.
+fn whole_below(value: f64) -> f64 {
+    let towards_zero = value as i64 as f64;
+    towards_zero - f64::from(u8::from(towards_zero > value))
 }
 
 #[cfg(test)]

@@ -187,7 +187,6 @@ impl Repetition {
         self.work.steps += made.work.steps;
         self.work.rejected += made.work.rejected;
         self.work.rate_calls += made.work.rate_calls;
-        self.warnings.add(k, std::mem::take(&mut made.warnings));
         if made.stop.complete() {
             for result in made.quantities.iter().filter(|own| is_life(own)) {
                 if let Value::List(values) = &result.value {
@@ -202,6 +201,7 @@ impl Repetition {
             self.drawn.push(drawn);
             self.table.push(k, Vec::new(), &made);
         }
+        self.warnings.add(k, std::mem::take(&mut made.warnings));
         self.first.get_or_insert(made);
     }
 

@@ -364,7 +364,9 @@ fn too_short(context: &Context, k: usize) -> Option<Graded> {
     let event = events::last_before(context, end);
     let grows = |(first, last, force): (f64, Option<f64>, f64)| {
         let from = first.max(event);
-        let time = last.filter(|last| *last > from + LATE * (end - from))?;
+        // bounces last about as long as the fall
+        let soon = end - first < first - context.counted_from();
+        let time = last.filter(|last| soon || *last > from + LATE * (end - from))?;
         Some((force, DropWarning::StillRising { force, time }.into()))
     };
     let mut both = bore.into_iter().chain(face);

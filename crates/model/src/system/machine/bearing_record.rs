@@ -234,9 +234,13 @@ impl BearingRecord {
     }
 
     pub(super) fn forces_of(&mut self, step: &mut Step<RotorMachine>) {
-        let at = self.at;
-        let start = WATCHED.map(|probe| step.start_probe(at.probe(probe)));
-        let end = WATCHED.map(|probe| step.end_probe(at.probe(probe)));
+        // by reference, and no `map` over the list: copies of both would be waited for in every step
+        let machine = step.machine;
+        let at = &machine.layout().bearings[self.bearing];
+        let start: [f64; WATCHED.len()] =
+            std::array::from_fn(|k| step.start_probe(at.probe(WATCHED[k])));
+        let end: [f64; WATCHED.len()] =
+            std::array::from_fn(|k| step.end_probe(at.probe(WATCHED[k])));
         let time = step.end;
         let length = step.end - step.start;
         let (last, last_length) = self.last_forces;

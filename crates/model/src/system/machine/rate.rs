@@ -168,14 +168,18 @@ impl<R: Real> Machines<R> {
             pulled += centre.position.cross(reaction.force);
         }
         let (mut pushing, mut turning, mut thrust) = (zero, zero, zero);
-        let loads = self.loaded.iter().zip(mode.loads);
-        let forces = self.forces.iter().map(|own| {
-            let (force, torque) = own.at(time);
-            turning += torque;
-            thrust += force.z;
-            (&own.node, Vec2::new(force.x, force.y))
-        });
-        for (node, own) in forces.chain(loads) {
+        // by their number: a chain with the list of loads would copy it in every call, whether there are any or not
+        let forces = self.forces.len();
+        for k in 0..forces + self.loaded.len() {
+            let (node, own) = match self.forces.get(k) {
+                Some(own) => {
+                    let (force, torque) = own.at(time);
+                    turning += torque;
+                    thrust += force.z;
+                    (&own.node, Vec2::new(force.x, force.y))
+                }
+                None => (&self.loaded[k - forces], mode.loads[k - forces]),
+            };
             let centre = node.centre(&rotor);
             node.push(own, [&mut *force_x, &mut *force_y]);
             moment += centre.arm.cross(own);
