@@ -33,8 +33,11 @@ const OF_NO_MACHINE: [(&str, &str); 6] = [
 /// Says that the force on a bearing still grows when the run ends.
 pub const RISING: &str = "AB2423";
 
+/// Whether a result of a name is meant.
+type IsMeant = fn(&str) -> bool;
+
 /// Warnings with which a value that holds a limit says nothing, which results, and why.
-const OPEN: [(&str, fn(&str) -> bool, &str); 3] = [
+const OPEN: [(&str, IsMeant, &str); 3] = [
     (RISING, grows, "the force still grows when the run ends"),
     (
         "AB1002",
