@@ -101,7 +101,7 @@ const MACHINE: &[Absent] = &[
 
 const TABLE: &[Absent] = &[
     Absent {
-        paths: "axial thrust thrust_bearing rotor.thrust rotor.axial_load *.axial_gap *.axial_clearance \
+        paths: "axial thrust thrust_bearing rotor.thrust rotor.axial_load *.axial_gap contact.axial_clearance bearing.axial_clearance \
                 *.axial_air_clearance *.axial_play *.axial_speed *.thrust_load",
         what: "bearings of the plane know no motion along the shaft, no axial gap and no thrust faces",
         point: 10,
