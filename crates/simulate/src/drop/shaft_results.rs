@@ -91,7 +91,7 @@ results! {
         "max_rotor_axial_displacement": number "m", ALONG, "largest displacement of the rotor along its axis" in tile "Largest axial displacement" => {
             run.finished.record.axial.value
         };
-        "rotor_axial_clearance": number "m", GIVEN, "how far the rotor may move along its axis" in note "Largest axial displacement: clearance", unless {
+        "rotor_axial_clearance": number "m", GIVEN, "how far the rotor may move along its axis" in note "Largest axial displacement: clearance" in bound "AB2425", unless {
             not_given("rotor.axial_clearance", given.axial_clearance)
         } => given.axial_clearance.unwrap_or(f64::NAN);
     }
