@@ -50,6 +50,17 @@ pub fn readable(si: f64, unit: &str) -> String {
     }
 }
 
+/// Ice point, K.
+const ICE_POINT: f64 = 273.15;
+
+/// A value of a result of this name: a temperature, which no rise of one is, in °C.
+pub fn of_result(name: &str, si: f64, unit: &str) -> String {
+    match name.ends_with("_temperature") {
+        true => format!("{:.1} °C", si - ICE_POINT),
+        false => readable(si, unit),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -2,8 +2,8 @@
 
 use crate::arguments::{Fmu, stem};
 use crate::console;
-use auxbear::Commands;
 use auxbear::problem::Result;
+use auxbear::run::Commands;
 use auxbear_fmu::Version;
 use auxbear_fmu::package::{library_in, written};
 use auxbear_fmu::variables::{Role, Variable};

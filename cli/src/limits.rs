@@ -1,7 +1,7 @@
 //! What is printed of the limits: a line each with its verdict.
 
 use crate::console;
-use crate::digits::readable;
+use crate::digits::of_result;
 use auxbear::outcome::{Judged, Outcome};
 
 /// The verdicts as a table; nothing where there are none.
@@ -16,14 +16,18 @@ pub fn text(outcome: &Outcome) -> String {
 /// "most 3 kN".
 pub fn bound(judged: &Judged) -> String {
     let Judged { limit, unit, .. } = judged;
-    format!("{} {}", limit.side.word(), readable(limit.bound, unit))
+    format!(
+        "{} {}",
+        limit.side.word(),
+        of_result(&limit.quantity, limit.bound, unit)
+    )
 }
 
 fn row(judged: &Judged) -> [String; 4] {
     let limit = &judged.limit;
-    let value = judged
-        .value
-        .map_or("-".to_string(), |value| readable(value, judged.unit));
+    let value = judged.value.map_or("-".to_string(), |value| {
+        of_result(&limit.quantity, value, judged.unit)
+    });
     [
         format!("  {}", judged.verdict.word()),
         limit.quantity.replace(['_', '.'], " "),

@@ -1,6 +1,6 @@
 //! What is printed after a run: where it is, the quantities most looked for, cost.
 
-use crate::digits::readable;
+use crate::digits::{of_result, readable};
 use crate::{console, limits, torque_tables};
 use auxbear::outcome::{Outcome, Quantity, Value};
 use std::f64::consts::PI;
@@ -8,9 +8,6 @@ use std::path::Path;
 
 /// What an identification ends with.
 const NEXT_TESTS: &str = "next_tests";
-
-/// Ice point, K.
-const ICE_POINT: f64 = 273.15;
 
 /// The text printed after a run.
 pub fn text(path: &Path, outcome: &Outcome) -> String {
@@ -116,10 +113,6 @@ fn steady(outcome: &Outcome) -> Vec<[String; 2]> {
 
 fn value(quantity: &Quantity) -> String {
     let text = match &quantity.value {
-        // a temperature, not a rise
-        Value::Number(kelvin) if quantity.name.ends_with("_temperature") => {
-            format!("{:.1} °C", kelvin - ICE_POINT)
-        }
         Value::Number(speed) if quantity.unit == "rad/s" => {
             let (factor, unit) = match quantity.name.ends_with("frequency") {
                 true => (0.5 / PI, "Hz"),
@@ -128,7 +121,7 @@ fn value(quantity: &Quantity) -> String {
             let other = readable(speed * factor, unit);
             format!("{} ({other})", readable(*speed, "rad/s"))
         }
-        Value::Number(number) => readable(*number, quantity.unit),
+        Value::Number(number) => of_result(&quantity.name, *number, quantity.unit),
         Value::List(list) => format!("{} values", list.len()),
         Value::Text(text) => text.clone(),
         Value::None { why } => format!("none: {why}"),

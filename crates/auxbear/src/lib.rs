@@ -101,7 +101,7 @@
 //! let text = template("spin_up").unwrap();
 //! let scenario = Scenario::parse(&text, "spin_up.toml", &[], &BuiltIn)?;
 //! let outcome = run(&scenario, &Options::unwatched(&AtomicBool::new(false)))?;
-//! // summary.json, history.csv, the resolved scenario, and a page to look at
+//! // summary.json, history.parquet, the resolved scenario, and a page to look at
 //! write_directory(&folder.join("spin_up"), &scenario, &outcome)?;
 //! assert!(folder.join("spin_up/report.html").exists());
 //! # Ok(())
@@ -139,9 +139,7 @@ pub use ::report::export::export;
 pub use ::run::study::answer::Answer;
 pub use ::run::study::table::Table;
 pub use ::run::study::{Study, evaluate};
-pub use ::run::{
-    Commands, Driven, DrivenState, Input, Machine, Reached, Simulation, Variable, Way, build, run,
-};
+pub use ::run::{Input, Machine, Reached, Simulation, build, run};
 pub use ::scenario::{
     BearingSource, BuiltIn, Limit, Resolved, Scenario, StudyFile, System, SystemName, schema,
     template,

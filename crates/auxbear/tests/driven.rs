@@ -2,8 +2,9 @@
 
 use crate::machine::parsed;
 use auxbear::outcome::Outcome;
+use auxbear::run::{Commands, Driven, Way};
 use auxbear::scenario::Scenario;
-use auxbear::{Commands, Driven, Machine, Options, Reached, Way, build, run};
+use auxbear::{Machine, Options, Reached, build, run};
 use levitation::StateSpace;
 use std::sync::atomic::AtomicBool;
 

@@ -3,7 +3,8 @@
 use crate::package::{self, Resources};
 use crate::variables::{self, Choice, Kind, Role, Variable};
 use auxbear::report::directory::NewDirectory;
-use auxbear::{BuiltIn, Driven, DrivenState, Reached, Scenario, Way, build};
+use auxbear::run::{Driven, DrivenState, Way};
+use auxbear::{BuiltIn, Reached, Scenario, build};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -2,7 +2,7 @@
 //!
 //! ```text
 //!   auxbear fmu ──▶ machine.fmu: description, this library, scenario with its data files
-//!   importer ──C──▶ interface_2, interface_3 ──▶ handle ──▶ instance ──▶ auxbear::Driven
+//!   importer ──C──▶ interface_2, interface_3 ──▶ handle ──▶ instance ──▶ auxbear::run::Driven
 //! ```
 //! | page | subject |
 //! |---|---|

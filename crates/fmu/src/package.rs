@@ -2,8 +2,9 @@
 
 use crate::description::{self, Version};
 use crate::variables::{self, COMMANDS, Variable};
+use auxbear::Scenario;
 use auxbear::problem::{Code, Problem, Result};
-use auxbear::{Commands, Scenario, Way};
+use auxbear::run::{Commands, Way};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Seek, Write};

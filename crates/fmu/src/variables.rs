@@ -1,8 +1,9 @@
 //! The variables of a unit: one table for its description and for its values. A value reference is the place in the table.
 
 use auxbear::outcome::Column;
+use auxbear::run::{Commands, Driven, Way};
 use auxbear::scenario::ResolvedValue;
-use auxbear::{Commands, Driven, Problem, Scenario, Way, build};
+use auxbear::{Problem, Scenario, build};
 
 /// The type of a variable.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,8 @@
 //! A unit through the functions that importers call: states, wrong calls, stops at contacts, parameters, the run directory.
 
+use auxbear::Scenario;
+use auxbear::run::Commands;
 use auxbear::scenario::BuiltIn;
-use auxbear::{Commands, Scenario};
 use auxbear_fmu::Version;
 use auxbear_fmu::interface_2::*;
 use auxbear_fmu::package::{Library, Unit, written};

@@ -1,6 +1,6 @@
 //! Limits of warnings: whether one came that must not.
 
-use crate::limits::{RISING, is_of};
+use crate::limits::{UNFINISHED, is_of};
 use crate::{Judged, Outcome, Quantity, Scope, Value, Verdict, Warning};
 use problem::warning::{Declared, Evaluation};
 use problem::{Code, Result, did_you_mean};
@@ -95,11 +95,16 @@ pub fn unjudged(
     found.map(|(code, says)| format!("{code} is not evaluated ({says})"))
 }
 
-/// Whether some of these warnings may come of a run that goes on.
-pub fn may_come_later(forbids: &Forbidden, declared: &[&'static Declared]) -> bool {
-    declared.iter().any(|kind| {
-        let of_run = kind.evaluation == Evaluation::Each && kind.code != RISING;
-        of_run && forbids.meets(kind.code, kind.severity)
+/// Warnings of runs that end too soon for some of these warnings, and why: had they gone on, others of these may have come.
+pub fn may_come_later(
+    forbids: &Forbidden,
+    declared: &[&'static Declared],
+) -> impl Iterator<Item = &'static (&'static str, &'static str)> {
+    UNFINISHED.iter().filter(|(code, _)| {
+        declared.iter().any(|kind| {
+            let of_run = kind.evaluation == Evaluation::Each && kind.code != *code;
+            of_run && forbids.meets(kind.code, kind.severity)
+        })
     })
 }
 
@@ -136,8 +141,17 @@ pub(super) fn values(
         let warned = |code: &str| outcome.warnings.iter().any(|own| own.code == code);
         unjudged(forbids, declared, warned)
     });
-    let grow = outcome.warnings.iter().find(|own| own.code == RISING);
-    let grow = grow.filter(|_| may_come_later(forbids, declared));
+    let unfinished = may_come_later(forbids, declared).flat_map(|(code, why)| {
+        let own = outcome.warnings.iter().filter(move |own| own.code == *code);
+        own.map(move |own| {
+            let count = match own.scope {
+                Scope::Each { count, .. } => count.min(all),
+                Scope::Alike | Scope::Unperturbed => all,
+            };
+            (count, format!("{why} ({code})"))
+        })
+    });
+    let unfinished = unfinished.max_by_key(|(count, _)| *count);
     let (known, why) = match unseen {
         _ if !outcome.stop.complete() => (0, outcome.stop.text.trim_end_matches('.').to_string()),
         _ if unknown.is_some() => (0, unknown.unwrap_or_default()),
@@ -145,15 +159,10 @@ pub(super) fn values(
             1,
             format!("{} is evaluated in the unperturbed member alone", kind.code),
         ),
-        _ if grow.is_some() => {
-            let own = grow.map_or(0, |own| match own.scope {
-                Scope::Each { count, .. } => count,
-                Scope::Alike | Scope::Unperturbed => all,
-            });
-            let why = format!("the force still grows when the run ends ({RISING})");
-            (all - own.min(all), why)
-        }
-        _ => (all, "which of them it is in is not known".to_string()),
+        _ => match unfinished {
+            Some((count, why)) => (all - count, why),
+            None => (all, "which of them it is in is not known".to_string()),
+        },
     };
     let mut values = vec![Some(1.0); least.min(all)];
     values.resize(values.len() + known.saturating_sub(most), Some(0.0));

@@ -18,11 +18,10 @@ use crate::forbidden;
 use crate::list::NOT_GIVEN;
 use crate::whirl::slips_in;
 pub use crate::whirl::{
-    CONTACTS, NOT_LANDED, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked,
-    whirl_sought,
+    CONTACTS, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked, whirl_sought,
 };
 use crate::withheld::warned;
-pub use crate::withheld::{RISING, left_open, of_no_machine, undecided, withheld};
+pub use crate::withheld::{NEVER, UNFINISHED, left_open, of_no_machine, undecided, withheld};
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
 use problem::{Code, Problem, Result, did_you_mean, question};
@@ -48,7 +47,8 @@ pub fn check(limits: &[Limit], known: &[Quantity], declared: &[&'static Declared
         let named = |known: &&Quantity| {
             is_name(&known.name, &limit.quantity) || fits(&limit.quantity, known)
         };
-        let Some(quantity) = known.iter().find(named) else {
+        let meant: Vec<&Quantity> = known.iter().filter(named).collect();
+        let Some(quantity) = meant.first() else {
             return Err(unknown(limit, known));
         };
         let kind = match quantity.value {
@@ -73,8 +73,11 @@ pub fn check(limits: &[Limit], known: &[Quantity], declared: &[&'static Declared
             let code = Code::UnknownQuantity;
             return Err(limit.problem(code, found, allowed));
         }
-        let wanted = dimension_of(quantity.unit);
-        if wanted.is_some_and(|wanted| wanted != limit.dimension) {
+        // one bound is no bound of results of several dimensions
+        let differs = |own: &&&Quantity| {
+            dimension_of(own.unit).is_some_and(|wanted| wanted != limit.dimension)
+        };
+        if let Some(other) = meant.iter().find(differs) {
             let is = |dimension: Dimension| match dimension {
                 Dimension::NONE => "a bare number".to_string(),
                 dimension => dimension.to_string(),
@@ -82,8 +85,8 @@ pub fn check(limits: &[Limit], known: &[Quantity], declared: &[&'static Declared
             let found = format!("{}, which is {}", limit.text, is(limit.dimension));
             let allowed = format!(
                 "{} is {}",
-                limit.quantity,
-                wanted.map_or(quantity.unit.to_string(), is)
+                other.name,
+                dimension_of(other.unit).map_or(other.unit.to_string(), is)
             );
             let code = Code::WrongDimension;
             return Err(limit.bound_problem(code, found, allowed));
@@ -127,7 +130,10 @@ pub fn meant(name: &str, known: &[&str]) -> Option<String> {
     let alike = known.iter().zip(&ends).filter(|(_, own)| **own == end);
     let alike: Vec<&str> = alike.map(|(known, _)| *known).take(3).collect();
     question(&alike).or_else(|| match name.starts_with('*') {
-        true => did_you_mean(end, ends),
+        true => {
+            let ends: Vec<String> = ends.iter().map(|end| format!("*.{end}")).collect();
+            did_you_mean(&format!("*.{end}"), ends.iter().map(String::as_str))
+        }
         false => did_you_mean(name, known.iter().copied()),
     })
 }
@@ -204,7 +210,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
 }
 
 /// Why members that ended as planned have no value.
-const LACKING: &str = "it does not exist in these, or still grows when they end (AB2423)";
+const LACKING: &str = "it does not exist in these, or they end too soon";
 
 /// The values of a result in each member that was asked for, and why some are not known. An instant that did not come while
 /// the run lasted, which is longer than the bound, is infinite: whenever it comes, the bound is passed.
@@ -216,7 +222,7 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
     let asked = outcome.work.members;
     if asked > 1 {
         let members = &outcome.members;
-        let mut values = members.limited(limit, quantity.of_contacts);
+        let mut values = members.limited(limit, Some(quantity));
         let why = match values.len() < asked {
             true => early(),
             false => LACKING.to_string(),
@@ -224,7 +230,12 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
         values.resize(asked, None);
         return (values, why);
     }
-    let whole = outcome.stop.complete() && !warned(outcome, NOT_LANDED, &quantity.name);
+    let open = |is_instant: bool| {
+        let mut open = left_open(&quantity.name, is_instant);
+        open.find(|(code, _)| warned(outcome, code, &quantity.name))
+    };
+    // what has not come may come later
+    let whole = outcome.stop.complete() && open(false).is_none();
     let idle = || {
         contacts_of(&quantity.name)
             .is_some_and(|names| names.map(|name| outcome.number(&name).unwrap_or(0.0)) == [0.0; 2])
@@ -249,16 +260,10 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
             (vec![Some(*value)], early())
         }
         (_, false) => (vec![None], early()),
-        (Value::Number(value), true) => {
-            let mut open = left_open(&quantity.name);
-            let open = open.find(|(code, _)| warned(outcome, code, &quantity.name));
-            match open {
-                Some((_, why)) if limit.side.holds(sized(limit, *value), bound) => {
-                    (vec![None], why)
-                }
-                _ => (vec![Some(*value)], String::new()),
-            }
-        }
+        (Value::Number(value), true) => match open(quantity.awaited) {
+            Some((_, why)) if limit.side.holds(sized(limit, *value), bound) => (vec![None], why),
+            _ => (vec![Some(*value)], String::new()),
+        },
         (Value::Text(_) | Value::List(_), true) => {
             let why = "it is no number, and a limit holds one number".to_string();
             (vec![None], why)
@@ -336,6 +341,11 @@ fn room(limit: &Limit, value: f64) -> String {
     };
     if value == limit.bound {
         return "just at the bound".to_string();
+    }
+    if limit.quantity.ends_with("_temperature") {
+        // a share of kelvins says nothing
+        let apart = (value - limit.bound).abs();
+        return format!("{apart:.1} K {beyond} the bound");
     }
     match ((value - limit.bound) / limit.bound).abs() {
         share if share.is_finite() => format!("{} {beyond} the bound", percent(share)),

@@ -1,7 +1,7 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::limits::{NOT_LANDED, contacts_of, left_open, sized};
-use crate::{Outcome, Value};
+use crate::limits::{contacts_of, left_open, sized};
+use crate::{Outcome, Quantity, Value};
 use problem::explain;
 use scenario::Limit;
 use std::collections::BTreeMap;
@@ -253,15 +253,20 @@ impl Table {
             .collect()
     }
 
-    /// What a limit holds of a result in each member; `of_contacts` where a member without a contact has none of it. None where a
-    /// warning leaves open what holds it.
-    pub fn limited(&self, limit: &Limit, of_contacts: bool) -> Vec<Option<f64>> {
+    /// What a limit holds of a result in each member; none where a warning leaves open what holds it.
+    pub fn limited(&self, limit: &Limit, known: Option<&Quantity>) -> Vec<Option<f64>> {
         let name = limit.quantity.as_str();
+        let [of_contacts, is_instant] =
+            known.map_or([false; 2], |known| [known.of_contacts, known.awaited]);
         let mut values = self.decisive(name, limit.bound);
-        let early = self.values(&format!("{WARNING}{NOT_LANDED}"));
+        let warned = |code: &str| self.values(&format!("{WARNING}{code}"));
+        let early: Vec<_> = left_open(name, false)
+            .map(|(code, _)| warned(code))
+            .collect();
         let touches = contacts_of(name).map(|names| names.map(|name| self.values(&name)));
         for (k, value) in values.iter_mut().enumerate() {
-            let whole = early[k].is_none() && !self.failed.contains_key(&self.members[k]);
+            let whole = early.iter().all(|own| own[k].is_none())
+                && !self.failed.contains_key(&self.members[k]);
             // a race that the rotor does not touch comes to no speed, and need not
             let idle = (touches.as_ref())
                 .is_some_and(|[bore, face]| bore[k] == Some(0.0) && face[k].is_none());
@@ -272,9 +277,8 @@ impl Table {
             }
         }
         let holds = |value: f64| limit.side.holds(sized(limit, value), limit.bound);
-        for (code, _) in left_open(name) {
-            let warned = self.values(&format!("{WARNING}{code}"));
-            for (value, warned) in values.iter_mut().zip(warned) {
+        for (code, _) in left_open(name, is_instant) {
+            for (value, warned) in values.iter_mut().zip(warned(code)) {
                 *value = value.filter(|value| warned.is_none() || !holds(*value));
             }
         }

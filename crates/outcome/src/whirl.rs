@@ -45,9 +45,6 @@ pub fn contacts_of(name: &str) -> Option<[String; 2]> {
     Some([CONTACTS, ON_FACE].map(|contacts| name.replace(own, contacts)))
 }
 
-/// Says that a run ends before the rotor comes to a bearing.
-pub const NOT_LANDED: &str = "AB2424";
-
 /// Whether a bearing slips when a member ends.
 pub(crate) fn slips_in(outcome: &Outcome) -> bool {
     let slips = |value: f64| value > 0.0;

@@ -30,50 +30,42 @@ const OF_NO_MACHINE: [(&str, &str); 6] = [
         "no verdict of a coast-down without the friction moment of its bearings: too long, and too cool",
     ),
 ];
-/// Says that the force on a bearing still grows when the run ends.
-pub const RISING: &str = "AB2423";
-
-/// Whether a result of a name is meant.
-type IsMeant = fn(&str) -> bool;
-
-/// Warnings with which a value that holds a limit says nothing, which results, and why.
-const OPEN: [(&str, IsMeant, &str); 3] = [
-    (RISING, grows, "the force still grows when the run ends"),
+/// Warnings of what a file asks for and its run does not come to, and why.
+pub const NEVER: [(&str, &str); 2] = [
+    ("AB2083", "what should happen did not"),
     (
-        "AB1002",
-        counts_drops,
-        "of fatigue alone: balls dent the races",
-    ),
-    (
-        "AB2416",
-        counts_drops,
-        "of fatigue alone: the faces are too hot",
+        "AB2085",
+        "the run ends too soon after an event or load, or before its largest value",
     ),
 ];
+/// Warnings of runs that end too soon: what holds a limit until then may break it later, and warnings may come.
+pub const UNFINISHED: [(&str, &str); 4] = [
+    (
+        "AB2424",
+        "the rotor has not come to the bearing when the run ends",
+    ),
+    ("AB2423", "the force still grows when the run ends"),
+    NEVER[0],
+    NEVER[1],
+];
+/// The same of what counts drops by fatigue.
+const OF_FATIGUE: [(&str, &str); 2] = [
+    ("AB1002", "of fatigue alone: balls dent the races"),
+    ("AB2416", "of fatigue alone: the faces are too hot"),
+];
 
-/// Whether a result is a largest value, or a sum, of what grows with the force.
-fn grows(name: &str) -> bool {
+/// Results that no later motion changes once they are there, beside instants: by their last name.
+const SETTLED: &str = "first_impact_force";
+
+/// Warnings with which a value of a result that holds a limit says nothing, and why. An instant that has come stays.
+pub fn left_open(name: &str, is_instant: bool) -> impl Iterator<Item = (&'static str, String)> {
     let own = name.rsplit('.').next().unwrap_or(name);
-    let begins = ["peak_", "max_", "largest_"].iter();
-    begins.clone().any(|begin| own.starts_with(begin))
-        || [
-            "travel_index",
-            "whirl_turns",
-            "least_distance",
-            "contact_temperature_rise",
-        ]
-        .contains(&own)
-}
-
-fn counts_drops(name: &str) -> bool {
-    let own = name.rsplit('.').next();
-    own.is_some_and(|own| own.starts_with("drops_until"))
-}
-
-/// Warnings with which a value of a result that holds a limit says nothing, and why.
-pub fn left_open(name: &str) -> impl Iterator<Item = (&'static str, String)> {
-    let found = OPEN.iter().filter(move |(_, is_of, _)| is_of(name));
-    found.map(|(code, _, why)| (*code, format!("{why} ({code})")))
+    let unfinished = UNFINISHED.iter();
+    let unfinished = unfinished.filter(move |_| !is_instant && own != SETTLED);
+    let of_fatigue = OF_FATIGUE.iter();
+    let of_fatigue = of_fatigue.filter(move |_| own.starts_with("drops_until"));
+    let found = unfinished.chain(of_fatigue);
+    found.map(|(code, why)| (*code, format!("{why} ({code})")))
 }
 
 /// Whether a warning came of the bearing of a result, or of any bearing where the result is of the rotor.

@@ -1,13 +1,16 @@
 //! What values and a drop say by themselves, and how that joins what a run finds.
 
-use outcome::{Severity, Warning};
+use outcome::Warning;
 use scenario::notes::ValueWarning;
 use scenario::{AuxiliaryBearing, Bearing, Scenario};
 use simulate::assumptions::speed_rating;
 use simulate::bearing::warnings::preload_left;
 use simulate::drop::Drop;
 use simulate::drop::warning_table::DropWarning;
+use units::number_text;
 
+/// Sag of a mount under the weight of the rotor, m.
+const LARGEST_SAG: f64 = 1e-3;
 /// Product of eccentricity and speed of drive shafts of cars, G 16, m/s.
 const LARGEST_GRADE: f64 = 16e-3;
 
@@ -23,6 +26,7 @@ pub(super) fn of_drop(drop: &Drop) -> Vec<Warning> {
         };
         let load = drop.weight(k);
         let mut list = of_bearing(&part.name, bearing, load, drop.rotor.speed);
+        list.extend(sags(drop, part, load).map(|warning| warning.of_part(&part.name)));
         let left = preload_left(bearing, ("weight", load), None);
         list.extend(left.map(|warning| warning.of_part(&part.name)));
         list
@@ -42,13 +46,35 @@ pub(super) fn with_those_before(
     joined(of_values(scenario).chain(of_drop(drop)), warnings)
 }
 
-/// What is known before a run, where the run does not say more of it, and what it found; destruction above doubt.
+/// What is known before a run, where the run does not say more of it, and what it found, the gravest first.
 pub(super) fn joined(before: impl Iterator<Item = Warning>, found: Vec<Warning>) -> Vec<Warning> {
     let new = |warning: &Warning| found.iter().all(|other| other.code != warning.code);
     let mut list: Vec<Warning> = before.filter(new).collect();
     list.extend(found);
-    list.sort_by_key(|warning| warning.severity > Severity::Destroys);
+    list.sort_by_key(|warning| warning.severity);
     list
+}
+
+/// A mount that the weight alone presses down, across or along the shaft.
+fn sags(drop: &Drop, part: &AuxiliaryBearing, load: f64) -> impl Iterator<Item = Warning> {
+    let mount = &part.mount;
+    let along = match part.contact.faces.any() {
+        true => (drop.body.mass * drop.gravity.axial).abs(),
+        false => 0.0,
+    };
+    let ways = [
+        ("mount.stiffness", load, mount.stiffness),
+        ("mount.axial_stiffness", along, mount.axial_stiffness),
+    ];
+    ways.into_iter().filter_map(|(key, weight, stiffness)| {
+        let sag = weight / stiffness;
+        let warning = ValueWarning::Implausible {
+            key: key.to_string(),
+            value: format!("{} N/m", number_text(stiffness)),
+            usual: format!("the weight alone presses it down by {:.1} mm", sag * 1e3),
+        };
+        (sag > LARGEST_SAG).then(|| warning.into())
+    })
 }
 
 /// An unbalance that no rotor on magnets is left with.

@@ -28,6 +28,8 @@ pub struct Document {
     pub bearing: Option<String>,
     /// Number of rows of all auxiliary bearings.
     pub rows: f64,
+    /// Number of bearings that these are rows of.
+    pub bearings: f64,
     /// What the file gives of each of several auxiliary bearings alone.
     own: Vec<Own>,
     /// What repeated runs vary: path, distribution, place.
@@ -66,6 +68,7 @@ impl Document {
             sections: BTreeMap::new(),
             bearing: None,
             rows: 1.0,
+            bearings: 1.0,
             own: Vec::new(),
             vary: Vec::new(),
             limits: Vec::new(),
@@ -113,10 +116,12 @@ impl Document {
         let whole = planes("rotor.planes");
         let mut document = self.clone();
         document.rows = whole * planes(PLANES);
+        document.bearings = whole;
         if self.own.is_empty() {
             return vec![document];
         }
         document.rows = whole * self.own.iter().map(rows).sum::<f64>();
+        document.bearings = whole * self.own.len() as f64;
         let of = |own: &Own| {
             let mut document = document.clone();
             document.bearing = Some(own.name.clone());

@@ -78,6 +78,7 @@ impl Values {
             system: document.system,
             bearing: document.bearing.clone(),
             rows: document.rows,
+            bearings: document.bearings,
             known: BTreeMap::new(),
             record: None,
             lacking: RefCell::default(),

@@ -267,7 +267,7 @@ fn a_star_is_every_bearing_and_the_only_one() {
     let scenario = read(&format!("{HEAD}{TWINS}\n{none}"), &[]).unwrap();
     let message = build(&scenario).err().unwrap().to_string();
     assert!(
-        message.contains("Did you mean \"first_impact_force\""),
+        message.contains("Did you mean \"*.first_impact_force\""),
         "{message}"
     );
     let wrong = LIMIT.replace("1 N", "1 mm");
@@ -310,6 +310,11 @@ fn a_wrong_limit_is_refused_before_the_run() {
             "quantity = \"peak_contact_force\"\nmost = \"5 mm\"",
             Code::WrongDimension,
             "peak_contact_force is force (N)",
+        ),
+        (
+            "quantity = \"peak_*\"\nmost = \"5 kN\"",
+            Code::WrongDimension,
+            "is pressure (Pa)",
         ),
         (
             "quantity = \"peak_contact_force\"\nmost = 5",

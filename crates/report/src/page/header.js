@@ -107,7 +107,7 @@ const ANGLES_FOR_WHIRL = 8;
 // Why a run in which no rotor whirled does not say that none will; none where it does.
 function whirlNotSought(run) {
   const angles = unbalanceAngles(run);
-  const few = angles < ANGLES_FOR_WHIRL ? `none seen from ${angles} unbalance ${angles === 1 ? "angle" : "angles"}; ${ANGLES_FOR_WHIRL} at least are needed (--repeat ${ANGLES_FOR_WHIRL})` : null;
+  const few = angles < ANGLES_FOR_WHIRL ? `no backward whirl seen from ${angles} unbalance ${angles === 1 ? "angle" : "angles"}; ${ANGLES_FOR_WHIRL} at least are needed (--repeat ${ANGLES_FOR_WHIRL})` : null;
   const { value, spread } = quantityOf(run, "slips_at_end");
   const slips = (spread ? spread.largest : value) > 0;
   return [few, slips ? "ends while the rotor slips on a race or bushing that is below 95 % of its speed" : null].filter(Boolean);
@@ -155,6 +155,7 @@ function distanceTile(run) {
   const open = [
     distancesOf(run).every(({ name }) => magnets.includes(name)) ? "gaps of magnets alone: no seal or sensor is given (rotor.node.clearance)" : null,
     list(run.summary.members).length > 1 ? "of the unperturbed run alone" : null,
+    warningsOf(run, "AB2424").length ? "until the run ends: the rotor has not come to every bearing" : null,
   ].filter(Boolean);
   return tile("Clearances along the shaft", engineeringText(least.clearance - least.displacement, "m", 3), [`least distance, at ${wordsOf(least.name)}`, open], open.length ? null : verdictState(run, false));
 }

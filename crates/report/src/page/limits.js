@@ -15,14 +15,19 @@ function limitName(run, limit) {
   return wordsOf(start && limit.quantity.startsWith(start) ? limit.quantity.slice(start.length) : limit.quantity);
 }
 
+// A temperature, which no rise of one is, in °C.
+function limitValue(limit, value, digits) {
+  return limit.quantity.endsWith("_temperature") ? `${numberText(value - ZERO_CELSIUS, digits)} °C` : engineeringText(value, limit.unit, digits);
+}
+
 function boundText(limit) {
   const share = limit.share < 1 ? `, ${percentText(limit.share)} of the runs` : "";
-  return `at ${limit.side} ${engineeringText(limit.bound, limit.unit, 4)}${share}`;
+  return `at ${limit.side} ${limitValue(limit, limit.bound, 4)}${share}`;
 }
 
 function limitTiles(run) {
   const tiles = limitsOf(run).map((limit) => {
-    const value = isNumber(limit.value) ? engineeringText(limit.value, limit.unit, 4) : "–";
+    const value = isNumber(limit.value) ? limitValue(limit, limit.value, 4) : "–";
     return tile(limitName(run, limit), limit.verdict, [`${value}; ${boundText(limit)}`], limitState(limit));
   });
   return tiles.length ? element("div", { class: "tiles limits" }, tiles) : null;
@@ -38,7 +43,7 @@ function limitSection(runs) {
       several ? element("td", {}, run.short) : null,
       element("td", { class: "name" }, limitName(run, limit), element("code", {}, breakable(limit.quantity))),
       element("td", {}, boundText(limit)),
-      element("td", {}, isNumber(limit.value) ? engineeringText(limit.value, limit.unit, 5) : "–"),
+      element("td", {}, isNumber(limit.value) ? limitValue(limit, limit.value, 5) : "–"),
       element("td", {}, element("strong", {}, limit.verdict)),
       element("td", { class: "small" }, limit.why),
     );

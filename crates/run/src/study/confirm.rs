@@ -78,14 +78,17 @@ impl Study {
                 let unjudged = || unjudged(forbids, &declared, |code| table.warns(code));
                 match not_evaluated(forbids, &declared, &known).or_else(unjudged) {
                     Some(_) => vec![None; table.members.len()],
-                    None => warned_of(table, forbids, may_come_later(forbids, &declared)),
+                    None => {
+                        let later = may_come_later(forbids, &declared);
+                        let too_soon: Vec<_> = later.map(|(code, _)| *code).collect();
+                        warned_of(table, forbids, &too_soon)
+                    }
                 }
             }
             None => {
                 let mut known = self.known.iter();
                 let known = known.find(|known| known.name == limit.quantity);
-                let of_contacts = known.is_some_and(|known| known.of_contacts);
-                let values = table.limited(limit, of_contacts);
+                let values = table.limited(limit, known);
                 let sized = |value: f64| limits::sized(limit, value);
                 // what was broken when a run stopped stays so
                 let stopped = table.values(&format!("{STOPPED}{}", limit.quantity));

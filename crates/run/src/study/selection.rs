@@ -12,11 +12,6 @@ use scenario::{Forbidden, Side};
 use statistics::design::{Coordinate, Design};
 use statistics::random::below;
 
-/// Warnings of events that did not happen, and of a motion of the base that the run cuts off.
-const NEVER: [(&str, &str); 2] = [
-    ("AB2083", "what should happen did not"),
-    ("AB2085", "the run ends too soon after an event or load"),
-];
 /// Repetitions of the draws.
 const REPETITIONS: u64 = 500;
 /// Apart from the numbers of the design.
@@ -213,8 +208,8 @@ impl Study {
         if let Some(why) = self.cut_short(&rows, table) {
             return Some(why);
         }
-        let mut never = NEVER.iter().filter_map(|(code, why)| {
-            let warned = warned_of(table, &Forbidden::Code(code.to_string()), false);
+        let mut never = limits::NEVER.iter().filter_map(|(code, why)| {
+            let warned = warned_of(table, &Forbidden::Code(code.to_string()), &[]);
             let some = rows.iter().filter(|row| warned[**row] == Some(1.0)).count();
             (some > 0).then(|| format!("{why} in {some} of {draws} draws ({code})"))
         });

@@ -2,7 +2,6 @@
 
 use crate::warnings::rank;
 use outcome::Severity;
-use outcome::limits::RISING;
 pub use outcome::table::{CONFIRMED, Column, LATE, STOPPED, Table, WARNING};
 use scenario::Forbidden;
 
@@ -38,9 +37,12 @@ impl Warned {
 }
 
 /// Whether each member has a warning of these, 1 or 0; not known of those that failed without one, nor, of warnings that may come
-/// later, of those in which the force still grows.
-pub(super) fn warned_of(table: &Table, forbids: &Forbidden, later: bool) -> Vec<Option<f64>> {
-    let grows = table.values(&format!("{WARNING}{RISING}"));
+/// later, of those that end too soon, which these warnings say.
+pub(super) fn warned_of(table: &Table, forbids: &Forbidden, too_soon: &[&str]) -> Vec<Option<f64>> {
+    let unfinished = too_soon
+        .iter()
+        .map(|code| table.values(&format!("{WARNING}{code}")));
+    let unfinished: Vec<_> = unfinished.collect();
     let meets = |column: &&Column| {
         let code = column.name.strip_prefix(WARNING);
         code.is_some_and(|code| forbids.meets(code, rank(code).0))
@@ -50,7 +52,7 @@ pub(super) fn warned_of(table: &Table, forbids: &Forbidden, later: bool) -> Vec<
         let has = columns.iter().any(|column| !column.values[row].is_nan());
         match has {
             true => Some(1.0),
-            false if later && grows[row].is_some() => None,
+            false if unfinished.iter().any(|own| own[row].is_some()) => None,
             false => (!table.failed.contains_key(member)).then_some(0.0),
         }
     };

@@ -2,7 +2,6 @@
 
 use crate::bearing::fits::{Fits, HOUSING_FIT};
 use crate::heat::{Atmosphere, HOUSING_SIZE};
-use crate::several::PLANES;
 use crate::spin_up::DriveKind;
 use crate::system::{COAST_DOWN, ON_RIG};
 use crate::values::{Value, Values};
@@ -35,16 +34,14 @@ type Done = Result<(), Box<Problem>>;
 impl Values {
     /// Fills what follows from weight and geometry.
     pub fn warm(&mut self) -> Done {
-        let bearings = self.rows;
         if let Some(mass) = self.number("rotor.mass") {
-            let share = mass / bearings;
             if self.is_in(COAST_DOWN) {
-                let load = "mass / number of bearings times 9.80665 m/s²";
-                let own = self.number(PLANES).unwrap_or(1.0) * share;
-                self.fill("coast_down.radial_load", own * GRAVITY, load)?;
+                let how = "mass / number of bearings times 9.80665 m/s²";
+                let load = mass / self.bearings * GRAVITY;
+                self.fill("coast_down.radial_load", load, how)?;
             }
-            let capacity = share * STEEL_HEAT.specific_heat;
-            let how = "mass / number of bearings times 460 J/(kg K): all of the rotor";
+            let capacity = mass / self.rows * STEEL_HEAT.specific_heat;
+            let how = "mass / number of rows times 460 J/(kg K): all of the rotor";
             self.fill("heat.rotor_capacity", capacity, how)?;
         }
         if let Some(temperature) = self.number("bearing.moment.temperature") {
@@ -83,7 +80,7 @@ impl Values {
             let seat = pressed_seat(FIT_PRESSURE) * PI * outside * width;
             self.fill("heat.outer_seat", seat, how)?;
         }
-        self.open_surfaces(bearings, [outside, width])?;
+        self.open_surfaces(self.rows, [outside, width])?;
         let by_rule = self.chosen("heat.atmosphere") != Some(Atmosphere::Vacuum);
         if by_rule && !self.exchanges("heat.housing_emissivity") {
             let how = "ISO 15312: 320 W/(m² K) of π width (outer_diameter + bore_diameter)";

@@ -14,6 +14,7 @@ use crate::drop::record_file::{self, sum};
 use crate::drop::warning_table::ShaftWarning;
 use model::base::{BaseConstants, HalfSine};
 use model::system::machine::MachineConstants;
+use model::table::Table;
 use number::Vec2;
 use outcome::Warning;
 use physics::response_spectrum::{Oscillator, spectrum_at};
@@ -117,16 +118,26 @@ pub(super) fn largest(constants: &MachineConstants, until: f64) -> f64 {
     largest.fold(0.0, f64::max)
 }
 
-/// Motions of the base, and forces from outside, that go on after the end of a run.
+/// Whether a table is larger after an instant than it ever was before.
+fn rises_after(table: &Table, end: f64) -> bool {
+    let (before, after): (Vec<_>, Vec<_>) = table.points().iter().partition(|own| own.0 <= end);
+    let largest = |points: &[(f64, f64)]| points.iter().fold(0.0, |m: f64, own| m.max(own.1.abs()));
+    largest(&after) > largest(&before).max(table.value(end).abs())
+}
+
+/// Motions of the base, and forces from outside, that are largest after the end of a run.
 pub(super) fn cut_off(constants: &MachineConstants, end: f64) -> Vec<Warning> {
-    let last = |points: &[(f64, f64)]| points.last().map_or(0.0, |point| point.0);
+    // the last instant of those that are larger after the end than ever before
+    let until = |tables: &mut dyn Iterator<Item = &Table>| {
+        let rising = tables.filter(|table| rises_after(table, end));
+        let last = rising.filter_map(|table| Some(table.points().last()?.0));
+        last.reduce(f64::max)
+    };
     let bases = constants.base.iter();
-    let records = bases.clone().flat_map(|base| &base.record);
-    let record = records.map(|table| last(table.points())).reduce(f64::max);
+    let record = until(&mut bases.clone().flat_map(|base| &base.record));
     let shocks = bases.flat_map(|base| &base.shocks);
     let shock = shocks.map(|own| own.start + own.duration).reduce(f64::max);
-    let forces = constants.forces.iter().flat_map(|own| &own.over_time);
-    let force = forces.map(|table| last(table.points())).reduce(f64::max);
+    let force = until(&mut constants.forces.iter().flat_map(|own| &own.over_time));
     let all = [
         ("the record of the base", record),
         ("the shock of the base", shock),

@@ -61,8 +61,8 @@ problem::warnings! {
             ("The rotor rubs on a bushing with a friction coefficient of {friction}: no race comes to speed and ends that, so friction drives backward whirl for as long as the rotor turns. Whether a blow starts it depends on friction, damping and the release: vary them (--repeat). What warming and wear do to friction and clearance is not followed.");
         StillRising { force: "N", time: "s" } "AB2423" Uncertain, each
             ("The force of rotor and bearing grows until {:.1} ms (largest {force:.0} N), late in this run or so shortly after their first contact that no bounce was seen: it may rise further, and what follows from it too. A longer run.duration shows it.", 1e3 * time);
-        NotLanded "AB2424" Uncertain, each
-            ("The rotor does not come to this bearing before the run ends, and no magnet holds it: what it does to the bearing is not in this run. A longer run.duration shows it.");
+        NotLanded { place: words } "AB2424" Uncertain, each
+            ("The rotor does not come to {place} before the run ends, and no magnet holds it: what it does there is not in this run. A longer run.duration shows it.");
         LayerIsWarm { since: "s", through: "s" } "AB2331" Uncertain, each
             ("The rotor's surface is hottest {since:.1} s after the first contact, and without heat.network = \"on\" its layer gives no heat to the metal behind it: from {through:.1} s on its rise, contact_temperature_rise and the share of heat that the race takes are too high. A bushing has no network: a deeper contact.surface.rotor_layer is right for longer.");
     }

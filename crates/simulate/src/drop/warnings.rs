@@ -336,7 +336,7 @@ fn no_thrust(context: &Context) -> Option<Graded> {
     Some((moved, warning.into()))
 }
 
-/// A run that ends before the rotor comes to a bearing, or while the force on it grows.
+/// A run that ends before the rotor comes to a bearing or its bore, or while the force on it grows.
 fn too_short(context: &Context, k: usize) -> Option<Graded> {
     let drop = context.setup.drop();
     let record = context.record(k);
@@ -357,16 +357,28 @@ fn too_short(context: &Context, k: usize) -> Option<Graded> {
         let first = own.first_axial_contact?;
         Some((first, own.growth.last, own.axial_force.value))
     });
-    if bore.or(face).is_none() {
-        return Some((0.0, DropWarning::NotLanded.into()));
-    }
     let end = context.finished.ending.time;
     let event = events::last_before(context, end);
-    let grows = |(first, last, force): (f64, Option<f64>, f64)| {
+    let late = |first: f64, last: f64| {
         let from = first.max(event);
+        last > from + LATE * (end - from)
+    };
+    // on a face alone the rotor moves across until it comes to the bore, or turns at rest
+    let place = match (bore, face) {
+        (None, None) => Some("this bearing"),
+        (None, Some((first, ..))) => (record.reach.last)
+            .is_none_or(|last| late(first, last))
+            .then_some("the bore of this bearing"),
+        (Some(_), _) => None,
+    };
+    if let Some(place) = place {
+        let place = place.to_string();
+        return Some((0.0, DropWarning::NotLanded { place }.into()));
+    }
+    let grows = |(first, last, force): (f64, Option<f64>, f64)| {
         // bounces last about as long as the fall
         let soon = end - first < first - context.counted_from();
-        let time = last.filter(|last| soon || *last > from + LATE * (end - from))?;
+        let time = last.filter(|last| soon || late(first, *last))?;
         Some((force, DropWarning::StillRising { force, time }.into()))
     };
     let mut both = bore.into_iter().chain(face);

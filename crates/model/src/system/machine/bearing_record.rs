@@ -52,6 +52,8 @@ pub struct BearingRecord {
     pub largest_mount_force: Peak,
     /// When the normal force of rotor and race last grew.
     pub growth: Growth,
+    /// When the distance of their centres last grew.
+    pub reach: Growth,
     /// Largest distance of the rotor's geometric centre from the inner race's centre, m.
     pub rotor_race_displacement: Peak,
     /// Largest distance of the rotor's geometric centre from the line of levitation while it touches the race, m.
@@ -164,6 +166,7 @@ impl BearingRecord {
             largest_bearing_load: Peak::NONE,
             largest_mount_force: Peak::NONE,
             growth: Growth::default(),
+            reach: Growth::default(),
             rotor_race_displacement: Peak::NONE,
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,

@@ -64,6 +64,7 @@ impl BearingRecord {
         }
         self.rotor_race_displacement
             .raise(end + self.clearance, step.end);
+        self.reach.watch(end + self.clearance, step.end);
         if end > 0.0 {
             // nearer than this, the eccentric centre cannot be farther than ever before
             let least = (self.rotor_displacement.value - self.eccentricity).max(0.0);

@@ -1,4 +1,0 @@
-//! Laws evaluated without motion.
-
-pub(crate) mod rotor;
-pub mod torque;
