@@ -198,7 +198,12 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
             }
             (None, None) => ("", vec![None], "this run has no such result".to_string()),
         };
-        let judged = forbidden::explained(judge(limit, unit, &values, &why), outcome);
+        let mut judged = forbidden::explained(judge(limit, unit, &values, &why), outcome);
+        // what it was until then
+        if let ([None], Some(Value::Number(value))) = (&values[..], quantity.map(|own| &own.value))
+        {
+            judged.value = Some(*value);
+        }
         let judged = match seeks_whirl(limit, &outcome.quantities, declared) {
             true => whirl_sought(judged, angles.len().max(1), slips_in(outcome)),
             false => judged,
