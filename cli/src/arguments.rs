@@ -44,9 +44,9 @@ pub enum Command {
     /// Make a rotor file of this program from a rotor saved by ROSS, or from a table of sections
     Import(Import),
     /// Read and check a file, print it with every default and its unit; run nothing
-    Check(Given),
+    Check(ScenarioArguments),
     /// List results and columns of a run of a file, with units and meanings; run nothing
-    Results(Given),
+    Results(ScenarioArguments),
     /// Write a commented starting file
     New {
         #[arg(help = format!("What to describe: {}", KINDS.join(", ")))]
@@ -116,7 +116,7 @@ pub enum Command {
 
 /// A scenario.
 #[derive(Debug, Args)]
-pub struct Given {
+pub struct ScenarioArguments {
     /// Scenario file; `auxbear new` writes one to start from
     pub file: PathBuf,
     /// Override a value of the file, e.g. bearing.name=6005 or mount.stiffness="1e7 N/m"; may be repeated
@@ -135,7 +135,7 @@ pub struct Output {
     pub quiet: bool,
 }
 
-impl Given {
+impl ScenarioArguments {
     /// Reads the scenario.
     pub fn read(&self) -> Result<Scenario> {
         Scenario::read(&self.file, &self.set, &BuiltIn)
@@ -162,7 +162,7 @@ pub fn stem(file: &Path) -> String {
 #[derive(Debug, Args)]
 pub struct Run {
     #[command(flatten)]
-    pub given: Given,
+    pub given: ScenarioArguments,
     #[command(flatten)]
     pub output: Output,
     /// Number of runs of a drop, from sampled unbalance angles and perturbed starts; the same as --set repeat.count=N
@@ -212,7 +212,7 @@ pub struct Qualify {
 #[derive(Debug, Args)]
 pub struct Measured {
     #[command(flatten)]
-    pub given: Given,
+    pub given: ScenarioArguments,
     #[command(flatten)]
     pub output: Output,
 }
@@ -220,7 +220,7 @@ pub struct Measured {
 #[derive(Debug, Args)]
 pub struct Mount {
     #[command(flatten)]
-    pub given: Given,
+    pub given: ScenarioArguments,
     /// Table of a measured stiffness to fit: columns frequency, storage (K') and loss (K''), each with its unit, e.g. "frequency [Hz]"
     #[arg(long, value_name = "TABLE")]
     pub fit: Option<PathBuf>,
@@ -235,7 +235,7 @@ pub struct Mount {
 #[derive(Debug, Args)]
 pub struct Fmu {
     #[command(flatten)]
-    pub given: Given,
+    pub given: ScenarioArguments,
     /// File to write [NAME.fmu of the file]
     #[arg(long, value_name = "FILE")]
     pub out: Option<PathBuf>,

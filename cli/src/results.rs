@@ -1,6 +1,6 @@
 //! `auxbear results`: results and columns of a run of a file, before it is run.
 
-use crate::arguments::Given;
+use crate::arguments::ScenarioArguments;
 use crate::console;
 use crate::run::listen;
 use auxbear::problem::Result;
@@ -11,7 +11,7 @@ const PATTERNS: &str = "\n* stands for a number or name that only the run or its
 /// Marks a column that a run may lack.
 const OPTIONAL: &str = " (if found)";
 
-pub fn perform(given: &Given) -> Result<()> {
+pub fn perform(given: &ScenarioArguments) -> Result<()> {
     // of a study its scenario
     let scenario = match given.read() {
         Err(told) if told.found.contains(STUDY_FORMAT) => StudyFile::read(&given.file)?.scenario,

@@ -4,7 +4,7 @@ use crate::arguments::Stiffness;
 use crate::{bearings, console};
 use auxbear::problem::Result;
 use auxbear::run::stiffness::answer::Ball;
-use auxbear::run::stiffness::{self, Answer, Asked, Typed};
+use auxbear::run::stiffness::{self, Answer, Request, Typed};
 
 /// What messages name as the file.
 const PLACE: &str = "auxbear bearings stiffness";
@@ -32,7 +32,7 @@ pub fn perform(wish: &Stiffness) -> Result<()> {
         ],
         place: PLACE,
     };
-    let answer = stiffness::run(&Asked::read(&meant, &typed)?, PLACE)?;
+    let answer = stiffness::run(&Request::read(&meant, &typed)?, PLACE)?;
     bearings::report(&meant, &name, &meant.left_out);
     console::print(&if wish.json {
         answer.to_json()

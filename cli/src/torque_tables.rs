@@ -8,7 +8,7 @@ use std::path::Path;
 
 /// The text printed after a computation.
 pub fn text(path: &Path, outcome: &Outcome) -> String {
-    let found = Found(outcome);
+    let found = Figures(outcome);
     let mut text = format!("{}\n{}\n", outcome.title, found.place());
     text.push_str(&format!("\n{}", console::table(&found.accelerations())));
     for result in found.in_figure("torque_lines") {
@@ -35,9 +35,9 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
 }
 
 /// What was computed, by the figures that show it.
-struct Found<'a>(&'a Outcome);
+struct Figures<'a>(&'a Outcome);
 
-impl<'a> Found<'a> {
+impl<'a> Figures<'a> {
     fn in_figure(&self, figure: &'static str) -> impl Iterator<Item = &'a Quantity> {
         let all = self.0.quantities.iter();
         all.filter(move |quantity| quantity.words_in(figure).is_some())

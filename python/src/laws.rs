@@ -11,7 +11,7 @@ use pyo3::prelude::*;
 
 /// What a law is given: an array for each of its arguments, or one number each.
 #[derive(FromPyObject)]
-pub enum Given<'py> {
+pub enum Arguments<'py> {
     Numbers(Vec<f64>),
     Arrays(Vec<PyReadonlyArray1<'py, f64>>),
 }
@@ -20,12 +20,12 @@ type Arrays<'py> = Vec<Bound<'py, PyArray1<f64>>>;
 /// Evaluates a law of `N` numbers at each place; it gives `M` numbers, or says why there are none.
 fn each<'py, const N: usize, const M: usize>(
     py: Python<'py>,
-    given: &Given<'py>,
+    given: &Arguments<'py>,
     mut law: impl FnMut([f64; N]) -> Result<[f64; M], String>,
 ) -> PyResult<Arrays<'py>> {
     let columns: Vec<&[f64]> = match given {
-        Given::Numbers(numbers) => numbers.iter().map(std::slice::from_ref).collect(),
-        Given::Arrays(arrays) => (arrays.iter())
+        Arguments::Numbers(numbers) => numbers.iter().map(std::slice::from_ref).collect(),
+        Arguments::Arrays(arrays) => (arrays.iter())
             .map(|array| Ok(array.as_slice()?))
             .collect::<PyResult<_>>()?,
     };
@@ -52,7 +52,7 @@ fn race(is_inner: bool) -> Race {
 
 /// Load, ball and pitch diameter, groove curvature, contact angle, contact modulus.
 #[pyfunction]
-pub fn hertz<'py>(py: Python<'py>, given: Given<'py>, is_inner: bool) -> PyResult<Arrays<'py>> {
+pub fn hertz<'py>(py: Python<'py>, given: Arguments<'py>, is_inner: bool) -> PyResult<Arrays<'py>> {
     // the contact costs a hundred times its load: it is built anew where its bodies change
     let mut built: Option<([f64; 5], PointContact)> = None;
     each(py, &given, |[load, ball, pitch, groove, angle, modulus]| {
@@ -85,7 +85,7 @@ pub fn hertz<'py>(py: Python<'py>, given: Given<'py>, is_inner: bool) -> PyResul
 /// Entrainment, load, ball and pitch diameter, groove curvature, contact angle, contact modulus, viscosity, pressure
 /// coefficient, supply.
 #[pyfunction]
-pub fn film<'py>(py: Python<'py>, given: Given<'py>, is_inner: bool) -> PyResult<Arrays<'py>> {
+pub fn film<'py>(py: Python<'py>, given: Arguments<'py>, is_inner: bool) -> PyResult<Arrays<'py>> {
     each(py, &given, |values| {
         let [
             speed,
@@ -115,7 +115,7 @@ pub fn film<'py>(py: Python<'py>, given: Given<'py>, is_inner: bool) -> PyResult
 
 /// Speed, load, then the constants of the bearing.
 #[pyfunction]
-pub fn palmgren<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Arrays<'py>> {
+pub fn palmgren<'py>(py: Python<'py>, given: Arguments<'py>) -> PyResult<Arrays<'py>> {
     each(py, &given, |[speed, load, f0, nu, pitch, z, y, rating]| {
         let law = Palmgren {
             viscous_factor: f0,
@@ -134,7 +134,11 @@ pub fn palmgren<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Arrays<'py>
 /// Speed, radial and axial load, mean diameter, viscosity, starvation, friction of boundary and of film, drag, moment of the seals, then
 /// the load factors of the type: R1, R2, R3, S1, S2, S3, or R1, R2, S1, S2 and the static load rating of a deep groove bearing.
 #[pyfunction]
-pub fn skf<'py>(py: Python<'py>, given: Given<'py>, is_deep_groove: bool) -> PyResult<Arrays<'py>> {
+pub fn skf<'py>(
+    py: Python<'py>,
+    given: Arguments<'py>,
+    is_deep_groove: bool,
+) -> PyResult<Arrays<'py>> {
     each(py, &given, |values| {
         let [
             speed,
@@ -187,7 +191,7 @@ pub fn skf<'py>(py: Python<'py>, given: Given<'py>, is_deep_groove: bool) -> PyR
 
 /// Inertia of the race, of the set; drive moment, steady moment.
 #[pyfunction]
-pub fn race_acceleration<'py>(py: Python<'py>, given: Given<'py>) -> PyResult<Arrays<'py>> {
+pub fn race_acceleration<'py>(py: Python<'py>, given: Arguments<'py>) -> PyResult<Arrays<'py>> {
     each(py, &given, |[race, set, drive, steady]| {
         Ok([rolling::race_acceleration(race, set, drive, steady)])
     })

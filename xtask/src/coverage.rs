@@ -133,7 +133,7 @@ fn measured(repository: &Repository, table: &Table) -> Result<(String, bool), St
 
 /// A test as it ran.
 #[derive(Debug, PartialEq)]
-struct Ran {
+struct TestRun {
     name: String,
     lines: Vec<String>,
     passed: bool,
@@ -141,8 +141,8 @@ struct Ran {
 
 /// The tests of an output without capture: `test NAME ... ` stands before the first line that a test prints, `ok` on a line of
 /// its own behind the last.
-fn tests(output: &str) -> Vec<Ran> {
-    let mut found: Vec<Ran> = Vec::new();
+fn tests(output: &str) -> Vec<TestRun> {
+    let mut found: Vec<TestRun> = Vec::new();
     // behind the tests stands what failed, once more
     for line in output.lines().take_while(|line| *line != "failures:") {
         let rest = match line
@@ -153,7 +153,7 @@ fn tests(output: &str) -> Vec<Ran> {
                 let name = name.rsplit("::").next().unwrap_or(name).replace('_', " ");
                 let mut letters = name.chars();
                 let first = letters.next().into_iter().flat_map(char::to_uppercase);
-                found.push(Ran {
+                found.push(TestRun {
                     name: first.chain(letters).collect(),
                     lines: Vec::new(),
                     passed: false,
@@ -183,7 +183,7 @@ mod tests_of_the_output {
         let output = "\nrunning 2 tests\ntest a::two_deviations ... first: 95 %\nsecond: 94 %\nok\ntest b_c ... ok\n\
                       test d ... x\nFAILED\n\ntest result: FAILED.";
         let found = tests(output);
-        let ran = |name: &str, lines: &[&str], passed| Ran {
+        let ran = |name: &str, lines: &[&str], passed| TestRun {
             name: name.into(),
             lines: lines.iter().map(|line| (*line).to_string()).collect(),
             passed,

@@ -30,10 +30,10 @@ pub fn format(repository: &Repository) -> Outcome {
 pub fn lints(repository: &Repository) -> Outcome {
     let mut outcome = done(
         repository,
-        "clippy --quiet --package auxbear --lib --no-default-features --locked -- \
+        "clippy --quiet --profile test --package auxbear --lib --no-default-features --locked -- \
          -D warnings -D clippy::disallowed_methods -D clippy::disallowed_types",
     );
-    let everywhere = "clippy --quiet --workspace --all-targets --locked";
+    let everywhere = "clippy --quiet --profile test --workspace --all-targets --locked";
     let mut command = cargo(repository);
     let mut warned = silent(command.args(everywhere.split(' ')));
     outcome.findings.append(&mut warned.findings);
@@ -54,7 +54,7 @@ fn clippy_driver() -> Option<PathBuf> {
 /// they give dependencies the features that lints and tests give them, and what they share is not built again. Libraries that clippy has
 /// checked are not checked a second time: it is named as their compiler, without arguments, as in [`lints`].
 pub fn pages(repository: &Repository) -> Outcome {
-    let words = "doc --quiet --workspace --lib --examples --no-deps --locked";
+    let words = "doc --quiet --profile test --workspace --lib --examples --no-deps --locked";
     let mut command = cargo(repository);
     if let Some(driver) = clippy_driver() {
         command.env("RUSTC_WORKSPACE_WRAPPER", driver);

@@ -2,7 +2,7 @@
 
 use crate::machine::parsed;
 use auxbear::outcome::Outcome;
-use auxbear::run::{Commands, Driven, Way};
+use auxbear::run::{Commands, Driven, Driving};
 use auxbear::scenario::Scenario;
 use auxbear::{Machine, Options, Reached, build, run};
 use levitation::StateSpace;
@@ -25,7 +25,7 @@ pub fn rig(more: &[&str]) -> Scenario {
     parsed(text, &[&own[..], more].concat()).unwrap()
 }
 
-const USUAL: Way = Way {
+const USUAL: Driving = Driving {
     commands: Commands::Current,
     keep_history: true,
     stops_at_contacts: false,
@@ -200,7 +200,7 @@ fn commands_of_each_kind_begin_with_what_holds_the_rotor() {
         let scenario = with_amplifiers(lines);
         let machine = build(&scenario).unwrap();
         let after = |commands| {
-            let mut driven = machine.driven(Way { commands, ..USUAL }).unwrap();
+            let mut driven = machine.driven(Driving { commands, ..USUAL }).unwrap();
             driven.advance(2e-4, &AtomicBool::new(false));
             let y = place(&driven, "sensor.drive_end.displacement_2");
             driven.read(y)
@@ -212,7 +212,7 @@ fn commands_of_each_kind_begin_with_what_holds_the_rotor() {
             "{commands:?} {held:e} {other:e}"
         );
         let loose = {
-            let mut driven = machine.driven(Way { commands, ..USUAL }).unwrap();
+            let mut driven = machine.driven(Driving { commands, ..USUAL }).unwrap();
             for axis in 0..4 {
                 driven.change(axis, 0.0).unwrap();
             }

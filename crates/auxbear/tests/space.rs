@@ -163,7 +163,7 @@ fn a_preloaded_pair_is_as_stiff_to_the_rotor_as_alone() {
         ],
         place: "test",
     };
-    let asked = stiffness::Asked::read(&meant, &typed).unwrap();
+    let asked = stiffness::Request::read(&meant, &typed).unwrap();
     let alone = stiffness::run(&asked, "test").unwrap();
     let alone = alone.stiffness[0][0];
     assert!((of("ball_stiffness") / alone - 1.0).abs() < 1e-3, "{alone}");
@@ -177,7 +177,7 @@ fn a_preloaded_pair_is_as_stiff_to_the_rotor_as_alone() {
         ],
         place: "test",
     };
-    let asked = stiffness::Asked::read(&meant, &fast).unwrap();
+    let asked = stiffness::Request::read(&meant, &fast).unwrap();
     let fast = stiffness::run(&asked, "test").unwrap().stiffness;
     let contact = of("contact_stiffness") * (0.5 * 32e-3_f64).powi(2);
     let expected = 1.0 / (1.0 / fast[4][4] + 1.0 / contact);

@@ -85,7 +85,7 @@ fn a_rotor_that_leaves_its_bearings_has_no_verdict() {
         let kept = REVERSAL.lines().filter(|line| !line.starts_with(gap));
         let text = kept.collect::<Vec<_>>().join("\n");
         format!(
-            "{text}\n[[limit]]\nquantity = \"locating.peak_hertz_pressure\"\nmost = \"9 GPa\"\n"
+            "{text}\n[[limit]]\nquantity = \"locating.time_to_first_contact\"\nmost = \"1 s\"\n"
         )
     };
     let limits = |run: &Outcome| run.limits.last().map(|own| own.verdict);

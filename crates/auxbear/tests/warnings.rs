@@ -218,7 +218,7 @@ fn the_frequency_of_a_mode_may_be_given_in_hertz() {
 
 #[test]
 fn few_unbalance_angles_pass_no_limit_of_whirl() {
-    let text = format!("{DROP}\n[[limit]]\nquantity = \"whirl_turns\"\nleast = -1\n");
+    let text = format!("{DROP}\n[[limit]]\nquantity = \"backward_whirl_turns\"\nmost = 1\n");
     let judged = |sets: &[&str]| ran(&text, sets).limits[0].clone();
     // the race is at 95 % after 40 ms
     let long = "run.duration=60 ms";

@@ -4,7 +4,7 @@ use super::bearing::{Datum, Mark, Value};
 use super::draft::{Read, Reader};
 use super::key::Key;
 use super::read::{in_order, kind};
-use problem::raw::{Given, Raw, raw};
+use problem::raw::{Input, Raw, raw};
 use problem::read::Reader as ValueReader;
 use problem::value::Value as KeyValue;
 use problem::{Code, Place, did_you_mean};
@@ -159,7 +159,7 @@ impl Reader<'_> {
             (other, _) => other,
         };
         let typed = None;
-        let known = ValueReader::of(self.file, path).read(key, &Given { raw, typed, place })?;
+        let known = ValueReader::of(self.file, path).read(key, &Input { raw, typed, place })?;
         Ok(match known.value {
             KeyValue::Word(word) => Datum::Word(word.to_string()),
             other => Datum::Number {

@@ -3,7 +3,7 @@
 use crate::package::{self, Resources};
 use crate::variables::{self, Choice, Kind, Role, Variable};
 use auxbear::report::directory::NewDirectory;
-use auxbear::run::{Driven, DrivenState, Way};
+use auxbear::run::{Driven, DrivenState, Driving};
 use auxbear::{BuiltIn, Reached, Scenario, build};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -146,7 +146,7 @@ impl Instance {
                 };
                 changes.push((path.clone(), text));
             }
-            let way = Way {
+            let way = Driving {
                 commands: self.resources.commands,
                 keep_history: !self.past.settings.run_directory.is_empty(),
                 stops_at_contacts: self.past.settings.stops_at_contacts,

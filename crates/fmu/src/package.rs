@@ -4,7 +4,7 @@ use crate::description::{self, Version};
 use crate::variables::{self, COMMANDS, Variable};
 use auxbear::Scenario;
 use auxbear::problem::{Code, Problem, Result};
-use auxbear::run::{Commands, Way};
+use auxbear::run::{Commands, Driving};
 use std::collections::BTreeMap;
 use std::fs::{self, File};
 use std::io::{Seek, Write};
@@ -246,7 +246,7 @@ impl Unit<'_> {
                 needed,
             ));
         }
-        let way = Way {
+        let way = Driving {
             commands: self.commands,
             keep_history: false,
             stops_at_contacts: false,

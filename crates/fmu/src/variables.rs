@@ -1,7 +1,7 @@
 //! The variables of a unit: one table for its description and for its values. A value reference is the place in the table.
 
 use auxbear::outcome::Column;
-use auxbear::run::{Commands, Driven, Way};
+use auxbear::run::{Commands, Driven, Driving};
 use auxbear::scenario::ResolvedValue;
 use auxbear::{Problem, Scenario, build};
 
@@ -129,7 +129,7 @@ pub fn of(scenario: &Scenario, driven: &Driven) -> Vec<Variable> {
 ///
 /// # Errors
 /// What is wrong with the scenario, or why it cannot be driven so.
-pub fn driven(scenario: &Scenario, way: Way) -> Result<Driven, Box<Problem>> {
+pub fn driven(scenario: &Scenario, way: Driving) -> Result<Driven, Box<Problem>> {
     build(scenario)?.driven(way)
 }
 

@@ -59,11 +59,11 @@ const SPEEDS: [f64; 9] = [
     163.1,
 ];
 
-/// Every second speed, from the first or the second on; all of them with `AUXBEAR_SEEDS` in the environment.
+/// Every third speed, from the first, second or third on; all of them with `AUXBEAR_SEEDS` in the environment.
 fn speeds(from: usize) -> impl Iterator<Item = f64> {
     let (skipped, step) = match std::env::var_os("AUXBEAR_SEEDS") {
         Some(_) => (0, 1),
-        None => (from % 2, 2),
+        None => (from % 3, 3),
     };
     SPEEDS.into_iter().skip(skipped).step_by(step)
 }
@@ -88,7 +88,7 @@ fn right_marks_raise_no_alarm() {
             }
         }
     }
-    assert!(count > 150, "{count}");
+    assert!(count > 100, "{count}");
     assert!(
         alarms.is_empty(),
         "{} of {count}: {alarms:#?}",

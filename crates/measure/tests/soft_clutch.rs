@@ -210,7 +210,7 @@ fn seeds() -> u64 {
     std::env::var("AUXBEAR_SEEDS")
         .ok()
         .and_then(|seeds| seeds.parse().ok())
-        .unwrap_or(10)
+        .unwrap_or(6)
 }
 
 /// Least parts inside the band, of instants and of engagements.

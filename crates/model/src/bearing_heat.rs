@@ -154,7 +154,7 @@ impl HeldWarmth {
 }
 
 /// What a run shows at an instant.
-pub struct Seen {
+pub struct HeatInstant {
     /// s.
     pub time: f64,
     /// Heats of the ledger so far, J.
@@ -456,7 +456,7 @@ impl Warmth {
     }
 
     /// Lets the network take the heat since the last span.
-    pub fn take(&mut self, part: &WarmBearing, seen: &Seen) {
+    pub fn take(&mut self, part: &WarmBearing, seen: &HeatInstant) {
         let span = seen.time - self.until;
         if span <= 0.0 {
             return;

@@ -93,7 +93,7 @@ pub struct Slid {
 }
 
 /// What a step shows of a contact.
-pub(crate) struct Seen {
+pub(crate) struct ContactStep {
     /// Begin and end, s.
     pub times: [f64; 2],
     /// Normal force at both, N.
@@ -164,7 +164,7 @@ impl SurfaceHeat {
     }
 
     /// Takes a step; true when its heat is due, which needs the motions at its end.
-    pub(crate) fn watch(&mut self, surfaces: &Surfaces, bore: f64, seen: &Seen) -> bool {
+    pub(crate) fn watch(&mut self, surfaces: &Surfaces, bore: f64, seen: &ContactStep) -> bool {
         let [start, end] = seen.times;
         let length = end - start;
         if seen.forces == [0.0; 2] {
@@ -195,7 +195,7 @@ impl SurfaceHeat {
         &mut self,
         surfaces: &Surfaces,
         [bore, clearance]: [f64; 2],
-        seen: &Seen,
+        seen: &ContactStep,
         motions: &Motions,
     ) {
         let (from, heat) = self.known;
@@ -372,7 +372,7 @@ mod tests {
         let mut before = [0.0; 2];
         for k in 1..=10_000 {
             let times = [k - 1, k].map(|k| 1e-3 * f64::from(k));
-            let seen = Seen {
+            let seen = ContactStep {
                 times,
                 forces: [80.0; 2],
                 slips: [15.0; 2],

@@ -65,6 +65,8 @@ pub fn not_evaluated(
     });
     pairs.find_map(|(kind, own)| {
         let why = match &own.value {
+            // what is never touched stays cold
+            Value::None { .. } if own.of_contacts => return None,
             Value::None { why } => why.as_str(),
             Value::List(list) if list.is_empty() => "none is given",
             _ => return None,

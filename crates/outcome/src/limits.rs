@@ -18,10 +18,13 @@ use crate::forbidden;
 use crate::list::NOT_GIVEN;
 use crate::whirl::slips_in;
 pub use crate::whirl::{
-    CONTACTS, SLIPS, SPIN_UP, contacts_of, is_of, seeks_whirl, sized, slips_asked, whirl_sought,
+    CONTACTS, SLIPS, SPIN_UP, WHIRL, contacts_of, is_of, seeks_whirl, sized, slips_asked,
+    whirl_sought,
 };
 use crate::withheld::warned;
-pub use crate::withheld::{NEVER, UNFINISHED, left_open, of_no_machine, undecided, withheld};
+pub use crate::withheld::{
+    CUT_BEFORE_COASTING, NEVER, UNFINISHED, left_open, of_no_machine, undecided, withheld,
+};
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
 use problem::{Code, Problem, Result, did_you_mean, question};
@@ -51,6 +54,11 @@ pub fn check(limits: &[Limit], known: &[Quantity], declared: &[&'static Declared
         let Some(quantity) = meant.first() else {
             return Err(unknown(limit, known));
         };
+        if is_of(&quantity.name, WHIRL) && limit.side == Side::Least {
+            let found = "least, which turns in the other sense hide".to_string();
+            let allowed = "backward_whirl_turns with most is needed".to_string();
+            return Err(limit.problem(Code::Impossible, found, allowed));
+        }
         let kind = match quantity.value {
             Value::Text(_) => Some("a word"),
             Value::List(_) => Some("a list"),
@@ -223,6 +231,8 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
     let bound = limit.bound;
     let early = || outcome.stop.text.trim_end_matches('.').to_string();
     let from = crate::counted_from(&outcome.quantities).filter(|_| quantity.awaited);
+    // nobody watches for it during a coast-down
+    let from = from.filter(|_| !warned(outcome, CUT_BEFORE_COASTING, &quantity.name));
     let beyond = |end: f64| (end - from? > bound).then_some(f64::INFINITY);
     let asked = outcome.work.members;
     if asked > 1 {

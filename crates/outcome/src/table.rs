@@ -1,6 +1,6 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::limits::{contacts_of, left_open, sized};
+use crate::limits::{CUT_BEFORE_COASTING, contacts_of, left_open, sized};
 use crate::{Outcome, Quantity, Value};
 use problem::explain;
 use scenario::Limit;
@@ -87,7 +87,15 @@ impl Table {
                 let meaning = || "when a run stopped that did not end as planned";
                 last = self.set(last + 1, &name, result.unit, meaning, value);
             }
-            if let (true, Some(from)) = (result.awaited && value.is_nan() && whole, from) {
+            // nobody watches for it during a coast-down
+            let cut = || {
+                outcome
+                    .warnings
+                    .iter()
+                    .any(|own| own.code == CUT_BEFORE_COASTING)
+            };
+            if let (true, Some(from)) = (result.awaited && value.is_nan() && whole && !cut(), from)
+            {
                 let name = format!("{LATE}{}", result.name);
                 let meaning = || "the run ended before it came";
                 last = self.set(last + 1, &name, "s", meaning, outcome.stop.time - from);

@@ -6,7 +6,10 @@ use scenario::{Limit, Side};
 
 /// Unbalance angles from which on a run that saw no whirl says something.
 const ANGLES_FOR_WHIRL: usize = 8;
-const WHIRL: &str = "whirl_turns";
+/// Turns of whirl in either sense.
+pub const WHIRL: &str = "whirl_turns";
+/// Those against the spin.
+const BACKWARD: &str = "backward_whirl_turns";
 /// The result that tells when slip of rotor and race ends.
 pub const SPIN_UP: &str = "inner_race_time_to_95_percent";
 
@@ -18,7 +21,7 @@ pub fn is_of(name: &str, result: &str) -> bool {
 /// Whether a limit is one of whirl: of its turns, or of the warning of it.
 pub fn seeks_whirl(limit: &Limit, known: &[Quantity], declared: &[&'static Declared]) -> bool {
     let Some(forbids) = &limit.forbids else {
-        return is_of(&limit.quantity, WHIRL);
+        return [WHIRL, BACKWARD].map(|own| is_of(&limit.quantity, own)) != [false; 2];
     };
     let warned = |kind: &&Declared| kind.by == WHIRL && forbids.meets(kind.code, kind.severity);
     declared.iter().copied().any(|kind| warned(&kind))

@@ -38,13 +38,23 @@ pub const NEVER: [(&str, &str); 2] = [
         "the run ends too soon after an event or load, or before its largest value",
     ),
 ];
+/// Says that a drop ends before its coast-down may begin.
+pub const CUT_BEFORE_COASTING: &str = "AB2324";
 /// Warnings of runs that end too soon: what holds a limit until then may break it later, and warnings may come.
-pub const UNFINISHED: [(&str, &str); 4] = [
+pub const UNFINISHED: [(&str, &str); 6] = [
     (
         "AB2424",
         "the rotor has not come to the bearing when the run ends",
     ),
     ("AB2423", "the force still grows when the run ends"),
+    (
+        "AB2426",
+        "the rotor still slips on its race when the run ends",
+    ),
+    (
+        CUT_BEFORE_COASTING,
+        "the drop ends before its landings and spin-up do",
+    ),
     NEVER[0],
     NEVER[1],
 ];

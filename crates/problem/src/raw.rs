@@ -190,7 +190,7 @@ pub fn as_toml(typed: &str) -> Option<Raw> {
 
 /// One given value.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Given {
+pub struct Input {
     /// What stands there.
     pub raw: Raw,
     /// The value as typed in an override, before it was taken as TOML.

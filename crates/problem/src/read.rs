@@ -2,7 +2,7 @@
 
 use crate::key::{Fallback, Key, Kind, article, quoted};
 use crate::provenance::Provenance;
-use crate::raw::{Given, Raw, as_toml};
+use crate::raw::{Input, Raw, as_toml};
 use crate::value::{Known, Value};
 use crate::{Code, Place, Problem, Result, did_you_mean, question};
 use units::{Dimension, ParseError, Rational, as_product, parse_quantity};
@@ -58,7 +58,7 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// A value of another kind, dimension or range than the key takes.
-    pub fn read<S>(&self, key: &Key<S>, given: &Given) -> Result<Known> {
+    pub fn read<S>(&self, key: &Key<S>, given: &Input) -> Result<Known> {
         let Unwrapped {
             raw,
             provenance,
@@ -92,7 +92,7 @@ impl<'a> Reader<'a> {
     }
 
     /// The value of `{ value = …, source = … }`, or the value itself.
-    fn unwrap_table<'v, S>(&self, key: &Key<S>, given: &'v Given) -> Result<Unwrapped<'v>> {
+    fn unwrap_table<'v, S>(&self, key: &Key<S>, given: &'v Input) -> Result<Unwrapped<'v>> {
         let (Raw::Table(parts), false) = (&given.raw, matches!(key.kind, Kind::Any(_))) else {
             return Ok(Unwrapped {
                 raw: &given.raw,
@@ -313,7 +313,7 @@ impl<'a> Reader<'a> {
             }
             _ => Raw::Text(fallback.text.to_string()),
         };
-        let given = Given {
+        let given = Input {
             raw,
             typed: None,
             place: Place::Whole,

@@ -1,7 +1,7 @@
 //! One table of a file, read by the list of its keys: `[design]`, `[[limit]]`, `[[rotor.disk]]`, `[[bearing]]`.
 
 use crate::key::{Key, Presence};
-use crate::raw::{Given, Raw, Written};
+use crate::raw::{Input, Raw, Written};
 use crate::read::Reader;
 use crate::value::{Known, Value};
 use crate::{Code, Place, Problem, Result, did_you_mean};
@@ -57,7 +57,7 @@ impl<S> Table<S> {
                 let problem = table.problem(code, name, found, allowed).at(*place);
                 return Err(problem.with_hint(did_you_mean(name, names())));
             };
-            let given = Given {
+            let given = Input {
                 raw: raw.clone(),
                 typed: None,
                 place: *place,

@@ -81,7 +81,7 @@ struct Run<'a> {
 }
 
 /// Mean, largest value, standard deviation and number of members of a quantity; one member of a single run.
-struct Found {
+struct OfMembers {
     mean: f64,
     largest: f64,
     deviation: f64,
@@ -325,7 +325,7 @@ impl Run<'_> {
             .product()
     }
     /// The last result of a kind that has a value, which knows most, of the drop or of its coast-down; the reason where none has one.
-    fn last(&self, bearing: &str, start: &str, what: &str) -> Result<Option<Found>, String> {
+    fn last(&self, bearing: &str, start: &str, what: &str) -> Result<Option<OfMembers>, String> {
         let mut why = None;
         let all = self.used_up(bearing).into_iter().rev();
         for (name, _, found) in all.filter(|(name, kind, _)| {
@@ -334,7 +334,7 @@ impl Run<'_> {
             let spread = &found["spread"];
             let alone = found["value"].as_f64();
             if let Some(mean) = spread["mean"].as_f64().or(alone) {
-                return Ok(Some(Found {
+                return Ok(Some(OfMembers {
                     mean,
                     largest: spread["max"].as_f64().unwrap_or(mean),
                     deviation: spread["sd"].as_f64().unwrap_or(0.0),

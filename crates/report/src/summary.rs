@@ -105,7 +105,7 @@ struct Summary<'a> {
     version: &'static str,
     complete: bool,
     stop: &'a Stop,
-    quantities: Named<'a, Found<'a>>,
+    quantities: Named<'a, Entry<'a>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     limits: Vec<Held<'a>>,
     warnings: Vec<Message<'a>>,
@@ -144,7 +144,7 @@ impl Serialize for First<'_> {
 }
 
 #[derive(Serialize)]
-struct Found<'a> {
+struct Entry<'a> {
     value: Json<'a>,
     unit: &'static str,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -232,7 +232,7 @@ pub(super) fn shown(quantity: &Quantity) -> Named<'_, &str> {
     Named(headline.into_iter().chain(others).collect())
 }
 
-fn result(quantity: &Quantity) -> Found<'_> {
+fn result(quantity: &Quantity) -> Entry<'_> {
     let why = quantity.value.why_absent();
     let value = match &quantity.value {
         _ if why.is_some() => Json::Null,
@@ -241,7 +241,7 @@ fn result(quantity: &Quantity) -> Found<'_> {
         Value::Text(text) => Json::Text(text),
         Value::None { .. } => Json::Null,
     };
-    Found {
+    Entry {
         value,
         unit: quantity.unit,
         why,

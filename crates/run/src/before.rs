@@ -1,7 +1,7 @@
 //! What is known before a run: the warnings that `auxbear check` prints beside the values of the file.
 
 use crate::known::{above_the_rating, of_bearing, of_drop, of_values};
-use crate::{Built, Machine};
+use crate::{Machine, Model};
 use outcome::Warning;
 use scenario::CoastingBearing;
 use simulate::rig::warnings::preload_of_rig;
@@ -15,25 +15,25 @@ impl Machine<'_> {
 
     fn of_system(&self) -> Vec<Warning> {
         match &self.system {
-            Built::Drop(built, _) => of_drop(&built.drop),
-            Built::SpinUp(spin_up, _) => {
+            Model::Drop(built, _) => of_drop(&built.drop),
+            Model::SpinUp(spin_up, _) => {
                 let load = spin_up.radial_load.largest_until(spin_up.run.duration);
                 let mut list = of_bearing("", &spin_up.bearing, load, spin_up.target_speed());
                 list.extend(preload_of_spin_up(&spin_up.bearing, load));
                 list
             }
-            Built::Torque(asked) => {
+            Model::Torque(asked) => {
                 let load = asked.torque.loads.iter().copied().fold(0.0, f64::max);
                 above_the_rating(asked.torque.static_load_rating, load)
                     .into_iter()
                     .collect()
             }
-            Built::Rig(rig, _) => {
+            Model::Rig(rig, _) => {
                 let mut list = of_bearing("", &rig.bearing, rig.load.radial_load, rig.speed);
                 list.extend(preload_of_rig(rig));
                 list
             }
-            Built::CoastDown(run, _) => {
+            Model::CoastDown(run, _) => {
                 let of = |own: &CoastingBearing| {
                     let found =
                         above_the_rating(own.warm.static_load_rating, own.warm.radial_load)?;
@@ -41,7 +41,7 @@ impl Machine<'_> {
                 };
                 run.bearings.iter().filter_map(of).collect()
             }
-            Built::Signals(_) | Built::Identify(_) | Built::Rotor(_) => Vec::new(),
+            Model::Signals(_) | Model::Identify(_) | Model::Rotor(_) => Vec::new(),
         }
     }
 }

@@ -32,7 +32,7 @@ use problem::{Code, Result};
 #[cfg(feature = "files")]
 pub use recording::file::parquet::panic_is_caught;
 use scenario::{CASE, CoastDown, Rig, Scenario, SpinUp, System, problem_at};
-pub use simulate::drop::driven::{Commands, Driven, DrivenState, Reached, Way};
+pub use simulate::drop::driven::{Commands, Driven, DrivenState, Driving, Reached};
 pub use simulate::drop::driven_columns::Variable;
 pub use simulate::simulation::{Input, Simulation};
 use simulate::{coast_down, drop, rig, spin_up};
@@ -41,20 +41,20 @@ use std::sync::Arc;
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
     scenario: &'a Scenario,
-    system: Built<'a>,
+    system: Model<'a>,
     measured: Arc<Vec<measured::Curve>>,
 }
 
 /// The machine of each system.
-enum Built<'a> {
-    Drop(Arc<drop::build::Built>, Vec<Arc<study::repeat::Other>>),
-    SpinUp(&'a SpinUp, Box<rig::run::Built>),
-    Torque(Box<torque::Asked<'a>>),
-    Signals(Arc<signals::Asked>),
-    Rig(&'a Rig, Box<rig::run::Built>),
-    Identify(Box<identify::Asked<'a>>),
-    Rotor(Arc<rotor::Asked>),
-    CoastDown(&'a CoastDown, Box<coast_down::build::Built>),
+enum Model<'a> {
+    Drop(Arc<drop::build::DropModel>, Vec<Arc<study::repeat::Member>>),
+    SpinUp(&'a SpinUp, Box<rig::run::RigModel>),
+    Torque(Box<torque::Request<'a>>),
+    Signals(Arc<signals::Request>),
+    Rig(&'a Rig, Box<rig::run::RigModel>),
+    Identify(Box<identify::Request<'a>>),
+    Rotor(Arc<rotor::Request>),
+    CoastDown(&'a CoastDown, Box<coast_down::build::CoastDownModel>),
 }
 
 /// Builds the machine that the scenario describes; runs nothing.
@@ -77,21 +77,23 @@ fn built(scenario: &Scenario) -> Result<Machine<'_>> {
     let system = match &scenario.system {
         System::Drop(of) => drop::build::drop(of).and_then(|built| {
             let others = study::repeat::others(scenario, &built.drop)?;
-            Ok(Built::Drop(Arc::new(built), others))
+            Ok(Model::Drop(Arc::new(built), others))
         }),
         System::SpinUp(of) => {
-            spin_up::build::spin_up(of).map(|built| Built::SpinUp(of, Box::new(built)))
+            spin_up::build::spin_up(of).map(|built| Model::SpinUp(of, Box::new(built)))
         }
-        System::Torque(of) => torque::Asked::of(of).map(|asked| Built::Torque(Box::new(asked))),
-        System::Signals(of) => signals::Asked::of(of).map(|asked| Built::Signals(Arc::new(asked))),
+        System::Torque(of) => torque::Request::of(of).map(|asked| Model::Torque(Box::new(asked))),
+        System::Signals(of) => {
+            signals::Request::of(of).map(|asked| Model::Signals(Arc::new(asked)))
+        }
         System::Identify(of) => {
-            identify::Asked::of(of).map(|asked| Built::Identify(Box::new(asked)))
+            identify::Request::of(of).map(|asked| Model::Identify(Box::new(asked)))
         }
         System::CoastDown(of) => {
-            coast_down::build::alone(of).map(|built| Built::CoastDown(of, Box::new(built)))
+            coast_down::build::alone(of).map(|built| Model::CoastDown(of, Box::new(built)))
         }
-        System::Rotor(of) => rotor::Asked::of(of).map(|asked| Built::Rotor(Arc::new(asked))),
-        System::Rig(of) => rig::build::rig(of).map(|built| Built::Rig(of, Box::new(built))),
+        System::Rotor(of) => rotor::Request::of(of).map(|asked| Model::Rotor(Arc::new(asked))),
+        System::Rig(of) => rig::build::rig(of).map(|built| Model::Rig(of, Box::new(built))),
     };
     let system = system.map_err(|problem| scenario.locate(problem))?;
     Ok(Machine {
@@ -150,9 +152,9 @@ impl Machine<'_> {
     /// Where nothing moves in time, or temperatures act on the motion.
     pub fn simulation(&self) -> Result<Simulation> {
         let driven = match &self.system {
-            Built::Drop(built, _) => Simulation::of_drop(self.scenario, built),
-            Built::SpinUp(of, built) => Ok(spin_up::simulation(of, built)),
-            Built::Rig(of, built) => Ok(rig::simulation(of, built)),
+            Model::Drop(built, _) => Simulation::of_drop(self.scenario, built),
+            Model::SpinUp(of, built) => Ok(spin_up::simulation(of, built)),
+            Model::Rig(of, built) => Ok(rig::simulation(of, built)),
             _ => {
                 let found = self.scenario.system.name().word().to_string();
                 let needed =
@@ -167,9 +169,9 @@ impl Machine<'_> {
     ///
     /// # Errors
     /// Where it is no drop and no machine, takes no such commands, or is to coast on until its standstill.
-    pub fn driven(&self, way: Way) -> Result<Driven> {
+    pub fn driven(&self, way: Driving) -> Result<Driven> {
         let driven = match &self.system {
-            Built::Drop(built, _) => Driven::new(self.scenario, built, way),
+            Model::Drop(built, _) => Driven::new(self.scenario, built, way),
             _ => {
                 let found = self.scenario.system.name().word().to_string();
                 let needed = "a drop or a machine is needed: nothing else has magnets to drive";
@@ -181,21 +183,21 @@ impl Machine<'_> {
 
     fn computed(&self, options: &Options) -> Outcome {
         match &self.system {
-            Built::Drop(built, others) => self.dropped(built, others, options),
-            Built::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
-            Built::Torque(asked) => torque::run(self.scenario, asked),
-            Built::Signals(asked) => signals::run(self.scenario, asked, options),
-            Built::Identify(asked) => identify::run(self.scenario, asked, options),
-            Built::Rotor(asked) => rotor::run(self.scenario, asked, options),
-            Built::CoastDown(of, built) => coast_down::run(self.scenario, of, built, options),
-            Built::Rig(of, built) => rig::run(self.scenario, of, built, options),
+            Model::Drop(built, others) => self.dropped(built, others, options),
+            Model::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
+            Model::Torque(asked) => torque::run(self.scenario, asked),
+            Model::Signals(asked) => signals::run(self.scenario, asked, options),
+            Model::Identify(asked) => identify::run(self.scenario, asked, options),
+            Model::Rotor(asked) => rotor::run(self.scenario, asked, options),
+            Model::CoastDown(of, built) => coast_down::run(self.scenario, of, built, options),
+            Model::Rig(of, built) => rig::run(self.scenario, of, built, options),
         }
     }
 
     fn dropped(
         &self,
-        built: &Arc<drop::build::Built>,
-        others: &[Arc<study::repeat::Other>],
+        built: &Arc<drop::build::DropModel>,
+        others: &[Arc<study::repeat::Member>],
         options: &Options,
     ) -> Outcome {
         let mut outcome = study::repeat::run(self.scenario, built, others, options);
@@ -215,14 +217,14 @@ impl Machine<'_> {
 
     fn computed_columns(&self) -> Vec<Column> {
         match &self.system {
-            Built::Drop(built, _) => drop::columns(built),
-            Built::SpinUp(of, built) => spin_up::columns(of, built),
-            Built::Rig(of, built) => rig::columns(of, built),
-            Built::CoastDown(_, built) => coast_down::columns(built),
-            Built::Torque(asked) => torque::columns(asked),
-            Built::Signals(asked) => signals::columns(asked),
-            Built::Identify(asked) => identify::columns(asked),
-            Built::Rotor(asked) => rotor::columns(asked),
+            Model::Drop(built, _) => drop::columns(built),
+            Model::SpinUp(of, built) => spin_up::columns(of, built),
+            Model::Rig(of, built) => rig::columns(of, built),
+            Model::CoastDown(_, built) => coast_down::columns(built),
+            Model::Torque(asked) => torque::columns(asked),
+            Model::Signals(asked) => signals::columns(asked),
+            Model::Identify(asked) => identify::columns(asked),
+            Model::Rotor(asked) => rotor::columns(asked),
         }
     }
 
@@ -235,7 +237,7 @@ impl Machine<'_> {
 
     fn computed_results(&self) -> Vec<Quantity> {
         match &self.system {
-            Built::Drop(built, _) => {
+            Model::Drop(built, _) => {
                 let mut list = drop::results(built);
                 let shaft = built.drop.shaft.as_ref();
                 if shaft.is_some_and(|shaft| shaft.cutoff_check.is_some()) {
@@ -243,13 +245,13 @@ impl Machine<'_> {
                 }
                 list
             }
-            Built::SpinUp(of, built) => spin_up::results(of, built),
-            Built::Rig(of, built) => rig::results(of, built),
-            Built::CoastDown(_, built) => coast_down::results(built),
-            Built::Torque(asked) => torque::results(asked),
-            Built::Signals(asked) => signals::results(asked),
-            Built::Identify(asked) => identify::results(asked),
-            Built::Rotor(asked) => rotor::results(asked),
+            Model::SpinUp(of, built) => spin_up::results(of, built),
+            Model::Rig(of, built) => rig::results(of, built),
+            Model::CoastDown(_, built) => coast_down::results(built),
+            Model::Torque(asked) => torque::results(asked),
+            Model::Signals(asked) => signals::results(asked),
+            Model::Identify(asked) => identify::results(asked),
+            Model::Rotor(asked) => rotor::results(asked),
         }
     }
 }

@@ -9,7 +9,7 @@ use crate::rotor::tables::{self, WrittenPart, is_part};
 use crate::several::{self, AUXILIARY_BEARING, LIMIT, PLANES, VARY};
 use crate::system::{COASTING_DOWN, SystemName};
 use crate::table;
-pub use problem::raw::{Given, Raw, as_toml};
+pub use problem::raw::{Input, Raw, as_toml};
 use problem::raw::{Written, collect, raw, table_raw, tables};
 use problem::{Code, Place, Problem, Result, did_you_mean};
 use std::collections::BTreeMap;
@@ -21,17 +21,15 @@ use toml::de::{DeTable, DeValue};
 pub struct Document {
     pub(crate) file: String,
     pub(crate) system: SystemName,
-    pub(crate) values: BTreeMap<&'static str, Given>,
+    pub(crate) values: BTreeMap<&'static str, Input>,
     /// Where each section of the text starts.
     pub sections: BTreeMap<String, Place>,
     /// The auxiliary bearing that it is of, where the file tells several apart.
     pub bearing: Option<String>,
     /// Number of rows of all auxiliary bearings.
     pub rows: f64,
-    /// Number of bearings that these are rows of.
-    pub bearings: f64,
     /// What the file gives of each of several auxiliary bearings alone.
-    own: Vec<Own>,
+    own: Vec<PartValues>,
     /// What repeated runs vary: path, distribution, place.
     pub vary: Vec<Written>,
     /// What results must hold: the keys of each limit.
@@ -44,9 +42,9 @@ pub struct Document {
 
 /// An auxiliary bearing of several: its name, and the values that it alone has.
 #[derive(Clone, Debug, PartialEq)]
-struct Own {
+struct PartValues {
     name: String,
-    values: BTreeMap<&'static str, Given>,
+    values: BTreeMap<&'static str, Input>,
 }
 
 /// One key or section of the text, before it is known whether it exists.
@@ -68,7 +66,6 @@ impl Document {
             sections: BTreeMap::new(),
             bearing: None,
             rows: 1.0,
-            bearings: 1.0,
             own: Vec::new(),
             vary: Vec::new(),
             limits: Vec::new(),
@@ -107,22 +104,20 @@ impl Document {
     /// itself where the file does not tell several apart.
     pub fn of_each_bearing(&self) -> Vec<Document> {
         // what is no count is refused where it is read
-        let count = |values: &BTreeMap<_, Given>, path| match values.get(path)?.raw.plain()? {
+        let count = |values: &BTreeMap<_, Input>, path| match values.get(path)?.raw.plain()? {
             Raw::Integer(_, Some(count)) => Some((*count).clamp(1, 1000) as f64),
             _ => None,
         };
         let planes = |path| count(&self.values, path).unwrap_or(1.0);
-        let rows = |own: &Own| count(&own.values, PLANES).unwrap_or(planes(PLANES));
+        let rows = |own: &PartValues| count(&own.values, PLANES).unwrap_or(planes(PLANES));
         let whole = planes("rotor.planes");
         let mut document = self.clone();
         document.rows = whole * planes(PLANES);
-        document.bearings = whole;
         if self.own.is_empty() {
             return vec![document];
         }
         document.rows = whole * self.own.iter().map(rows).sum::<f64>();
-        document.bearings = whole * self.own.len() as f64;
-        let of = |own: &Own| {
+        let of = |own: &PartValues| {
             let mut document = document.clone();
             document.bearing = Some(own.name.clone());
             let values = own
@@ -165,7 +160,7 @@ impl Document {
             let text = |text: &str| Raw::Text(text.to_string());
             let keys = [("value", text(&speed)), ("source", text(source))];
             let keys = keys.map(|(key, raw)| (key.to_string(), raw));
-            let given = Given {
+            let given = Input {
                 raw: Raw::Table(keys.to_vec()),
                 typed: None,
                 place: Place::Whole,
@@ -243,7 +238,7 @@ impl Document {
                 document.add(&entry.path, entry.raw, None, place)?;
             }
             self.sections.append(&mut document.sections);
-            self.own.push(Own {
+            self.own.push(PartValues {
                 name,
                 values: document.values,
             });
@@ -431,7 +426,7 @@ impl Document {
         }
         match (key, raw) {
             (Some(key), Some(raw)) => {
-                let given = Given { raw, typed, place };
+                let given = Input { raw, typed, place };
                 self.values.insert(key.path, given);
                 Ok(())
             }

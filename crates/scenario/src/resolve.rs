@@ -1,7 +1,7 @@
 //! From the table of keys and the given values to one value for every key.
 
 use crate::bearing::source::{BearingRecord, BearingSource};
-use crate::document::{Document, Given};
+use crate::document::{Document, Input};
 use crate::key::{Condition, Key, Kind, Otherwise, Presence, conditions, quoted};
 use crate::resolved::{Resolved, ResolvedValue};
 use crate::several::{self, AUXILIARY_BEARING};
@@ -78,7 +78,6 @@ impl Values {
             system: document.system,
             bearing: document.bearing.clone(),
             rows: document.rows,
-            bearings: document.bearings,
             known: BTreeMap::new(),
             record: None,
             lacking: RefCell::default(),
@@ -254,7 +253,7 @@ impl Values {
     fn unused(
         &self,
         key: &Key,
-        given: &Given,
+        given: &Input,
         unmet: &Condition,
         document: &Document,
     ) -> Box<Problem> {
@@ -277,7 +276,7 @@ impl Values {
     }
 
     /// Which lines have no effect by the same choice, and what would give them one.
-    fn remedy(&self, given: &Given, unmet: &Condition, document: &Document) -> Option<String> {
+    fn remedy(&self, given: &Input, unmet: &Condition, document: &Document) -> Option<String> {
         given.place.line()?;
         let lines: Vec<String> = table::keys_of(self.system)
             .filter(|key| {
@@ -298,7 +297,7 @@ impl Values {
         Some(format!("Remove {word} {}, or {back}", lines.join(", ")))
     }
 
-    fn refuse_conflict(&self, key: &Key, given: &Given, document: &Document) -> Result<()> {
+    fn refuse_conflict(&self, key: &Key, given: &Input, document: &Document) -> Result<()> {
         let Some(other) = key.excludes else {
             return Ok(());
         };

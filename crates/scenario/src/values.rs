@@ -28,8 +28,6 @@ pub struct Values {
     pub bearing: Option<String>,
     /// Number of rows of all auxiliary bearings.
     pub rows: f64,
-    /// Number of bearings that these are rows of.
-    pub bearings: f64,
     pub(crate) known: BTreeMap<&'static str, Known>,
     /// What the catalogue knows of the bearing named.
     pub record: Option<BearingRecord>,

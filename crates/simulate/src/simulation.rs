@@ -2,7 +2,7 @@
 //!
 //! Not here: rows, results and warnings, and temperatures that act on the motion. Those are of a [run](crate::drop).
 
-use crate::drop::build::Built;
+use crate::drop::build::DropModel;
 use crate::drop::each::One;
 use crate::ending::{DESIGN, settings_at, stop};
 use crate::stepping::Stepping;
@@ -49,7 +49,7 @@ impl Simulation {
     ///
     /// # Errors
     /// Where temperatures act on its motion.
-    pub fn of_drop(scenario: &Scenario, built: &Arc<Built>) -> Result<Self, Box<Problem>> {
+    pub fn of_drop(scenario: &Scenario, built: &Arc<DropModel>) -> Result<Self, Box<Problem>> {
         let one = One::of(scenario, built.clone());
         if one.member.following.is_some() {
             let found = "temperatures that act on the motion".to_string();

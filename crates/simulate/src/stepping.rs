@@ -53,7 +53,7 @@ pub(crate) struct Stepping {
 
 /// What of a system decides its steps.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Asked<'a> {
+pub(crate) struct StepRequest<'a> {
     /// Accuracy, tolerance and method that were asked for.
     pub run: &'a Run,
     /// How much of what is stiff linearly implicit steps know.
@@ -85,7 +85,7 @@ impl Stepping {
     }
 }
 
-impl Asked<'_> {
+impl StepRequest<'_> {
     /// Whether a mode of the rotor is so quick that linearly implicit steps must follow it to keep its energy.
     pub fn is_bound_by_modes(&self) -> bool {
         self.quickest_mode > QUICK_MODE
@@ -93,7 +93,7 @@ impl Asked<'_> {
     /// The steps. At design accuracy linearly implicit ones pay where friction is stiff; at screening accuracy wherever they
     /// know all that is stiff. Balls that roll have nothing stiff.
     pub fn stepping(&self, stiffness: impl FnOnce() -> f64) -> Stepping {
-        let Asked { run, known, .. } = *self;
+        let StepRequest { run, known, .. } = *self;
         let screening = run.accuracy == Accuracy::Screening;
         let all = known == Known::All && !self.is_bound_by_modes();
         let implicit = known < Known::Nothing
@@ -120,7 +120,7 @@ impl Asked<'_> {
 
     /// Steps that are not those that were asked for, or coarser ones than the accuracy means.
     pub fn warnings(&self, steps: Steps) -> Vec<Warning> {
-        let Asked {
+        let StepRequest {
             run, known, design, ..
         } = *self;
         let mut list = Vec::new();

@@ -26,9 +26,9 @@ pub struct Workspace<R> {
     /// Watched probes at the end.
     pub next_probe: Vec<R>,
     /// Watched channels and probes of each lane at the start of the step, as observers read them.
-    pub seen: Seen,
+    pub seen: StepEnd,
     /// The same at its end.
-    pub next_seen: Seen,
+    pub next_seen: StepEnd,
     /// 1/(tolerance · error scale) of each channel.
     pub inverse_error: Vec<R>,
     /// Natural logarithm of the error of the last accepted step.
@@ -53,8 +53,8 @@ impl<R: Real> Workspace<R> {
             last: zeros(dimension),
             probe: zeros(probes),
             next_probe: zeros(probes),
-            seen: Seen::new(R::LANES, channels, probes),
-            next_seen: Seen::new(R::LANES, channels, probes),
+            seen: StepEnd::new(R::LANES, channels, probes),
+            next_seen: StepEnd::new(R::LANES, channels, probes),
             inverse_error: zeros(dimension),
             last_logarithm: R::zero(),
             active: dimension - machine.quadratures(),
@@ -64,15 +64,15 @@ impl<R: Real> Workspace<R> {
 
 /// Leading channels and probes at one end of a step, lane by lane.
 #[derive(Debug)]
-pub struct Seen {
+pub struct StepEnd {
     channels: usize,
     probes: usize,
     values: Vec<f64>,
 }
 
-impl Seen {
+impl StepEnd {
     fn new(lanes: usize, channels: usize, probes: usize) -> Self {
-        Seen {
+        StepEnd {
             channels,
             probes,
             values: vec![0.0; lanes * (channels + probes)],

@@ -1,9 +1,9 @@
 //! Named results of an identification: the steady moment, the map of F, the explanations; those of each test on their own
 //! page.
 
-use crate::identify::found::{Found, rolling_set};
+use crate::identify::estimate::{Estimate, rolling_set};
 use crate::identify::per_test::{self, OfTest};
-use crate::identify::read::{Asked, Test};
+use crate::identify::read::{Request, Test};
 use identify::coasting::Windage;
 use identify::explain::{self, Candidate, Conclusion, Explanation, Verdict};
 use identify::loss::{LossMap, LossPoint};
@@ -21,7 +21,7 @@ const CURVE_POINTS: usize = 60;
 const MAP_POINTS: usize = 24;
 
 /// All named results, of what was not asked for none; without a second argument those of any such identification.
-pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
+pub(crate) fn name(asked: &Request, found: Option<&Estimate>) -> Vec<Quantity> {
     let mut list = List::default();
     verdict(&mut list, asked, found);
     for explanation in Explanation::ALL {
@@ -57,16 +57,16 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 }
 
 results! {
-    fn verdict(asked: &Asked, run: &Found) {
+    fn verdict(asked: &Request, run: &Estimate) {
         "explanation": text "" headline, VERDICT, "explanation that the tests support" => run.verdict().map(conclusion);
         "explanation_slip_limit": text "", VERDICT, "slip that counts as rolling" => run.verdict().map(|_| slip_limits(run));
     }
 
-    fn probability(explanation: &Explanation, run: &Found) {
+    fn probability(explanation: &Explanation, run: &Estimate) {
         "probability_of_*": number "1", VERDICT, "probability of this explanation" in explanations "*" => run.verdict().map(|verdict| verdict.of(*explanation).probability);
     }
 
-    fn explained(asked: &Asked, run: &Found) {
+    fn explained(asked: &Request, run: &Estimate) {
         "explanation_parameters": text "" headline, VERDICT, "parameters of the most probable explanation" => run.verdict().map(explanation_parameters);
         "explanation_fit_probability": number "1" headline, FIT, "probability of a fit at least as bad" => {
             let none = || "it fits nowhere in the range of its parameters".to_string();
@@ -76,18 +76,18 @@ results! {
         "next_tests": text "", NEXT, "tests that would tell most" => run.next.as_ref().map(|all| next_tests(all)).map_err(Clone::clone);
     }
 
-    fn best_form(asked: &Asked, run: &Found) {
+    fn best_form(asked: &Request, run: &Estimate) {
         "steady_moment_form": text "" headline, EVIDENCE, "most probable form of the steady moment" => run.moment().map(|moment| word(moment.best().form));
     }
 
-    fn form_probability(form: &Form, run: &Found) {
+    fn form_probability(form: &Form, run: &Estimate) {
         "probability_of_*_form": number "1", EVIDENCE, "probability of this form" => {
             let fit = |moment: &Moment| moment.forms.iter().find(|fit| fit.form == *form).map(|fit| fit.probability);
             run.moment().and_then(|moment| fit(moment).ok_or_else(|| "this form was not fitted".to_string()))
         };
     }
 
-    fn moment(asked: &Asked, run: &Found) {
+    fn moment(asked: &Request, run: &Estimate) {
         "steady_moment_parameters": text "", CURVE, "parameters of each form" => run.moment().map(form_parameters);
         "largest_parameter_correlation": number "1", CURVE, "largest correlation of two parameters" => {
             run.moment().and_then(|moment| largest_correlation(moment).ok_or_else(|| "one parameter".to_string()))
@@ -104,7 +104,7 @@ results! {
         "effective_steady_data": number "", WORTH, "effective number of data of the steady moment" => run.moment().map(|moment| moment.effective_data);
     }
 
-    fn loss_map(asked: &Asked, run: &Result<[Vec<f64>; 5], &String>) {
+    fn loss_map(asked: &Request, run: &Result<[Vec<f64>; 5], &String>) {
         "loss_map_speeds": list "rad/s", MAP, "speeds of the map of F" in friction_map "speed" => column(run, 0);
         "loss_map_accelerations": list "rad/s^2", MAP, "accelerations of the map of F" in friction_map "acceleration" => column(run, 1);
         "loss_map_friction": list "N", MAP, "pocket friction F there" in friction_map "friction" => column(run, 2);
@@ -112,7 +112,7 @@ results! {
         "loss_map_known": list "", MAP, "1 where data are near" in friction_map "known" => column(run, 4);
     }
 
-    fn rotor(asked: &Asked, run: &Found) {
+    fn rotor(asked: &Request, run: &Estimate) {
         "rotor_friction_coefficient": number "1" headline, ROTOR, "mean coefficient of friction" in tile "Friction rotor/race" => run.rotor().map(|rotor| rotor.mean().friction.value);
         "rotor_friction_coefficient_deviation": number "1" headline, ROTOR, "its standard deviation" => run.rotor().map(|rotor| rotor.mean().friction.deviation);
         "rotor_friction_slips": list "m/s", ROTOR, "slips of rotor and race" in rotor_friction "slip" => run.over_slip(|p| p.slip.value);
@@ -185,7 +185,7 @@ fn next_tests(all: &[Candidate]) -> String {
 }
 
 /// From which slip on the comparison calls it slip, beside the narrower limit of the slip itself.
-fn slip_limits(found: &Found) -> String {
+fn slip_limits(found: &Estimate) -> String {
     let least = 1e2 * explain::LEAST_SLIP;
     let limit = 1e2 * slip::LIMIT;
     let never = found.tests.iter().filter(
@@ -220,7 +220,7 @@ fn column(grid: &Result<[Vec<f64>; 5], &String>, index: usize) -> Result<Vec<f64
     Ok(rows[index].clone())
 }
 
-impl Asked<'_> {
+impl Request<'_> {
     /// Whether a slow test takes a windage out.
     fn has_windage(&self) -> bool {
         let takes = |test: &Test| {
@@ -231,7 +231,7 @@ impl Asked<'_> {
     }
 }
 
-impl Found {
+impl Estimate {
     fn verdict(&self) -> Result<&Verdict, String> {
         self.verdict.as_ref().map_err(Clone::clone)
     }

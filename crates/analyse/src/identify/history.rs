@@ -1,7 +1,7 @@
 //! The tests over time since their engagement, side by side.
 
-use crate::identify::found::{Found, TestFound};
-use crate::identify::read::Asked;
+use crate::identify::estimate::{Estimate, TestEstimate};
+use crate::identify::read::Request;
 use identify::Measurement;
 use identify::explain::TorqueMean;
 use identify::loss::LossPoint;
@@ -20,7 +20,7 @@ const SLOW: f64 = 5e-3;
 const BEFORE: f64 = 0.2;
 
 /// All columns; `time` first, from the engagement of each test on. What a test does not show has none.
-pub(crate) fn columns(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
+pub(crate) fn columns(asked: &Request, found: Option<&Estimate>) -> Vec<Column> {
     let times = found.map_or_else(Vec::new, |found| times(&found.tests));
     let mut table = Columns::over(&times);
     columns! { table, |time| "time": "s", "time since the engagement of each test, or since its start where nothing engages" => *time; }
@@ -40,7 +40,7 @@ pub(crate) fn columns(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
 }
 
 /// A test of a run with all that was found; none before a run.
-type Run<'a> = Option<(&'a TestFound, &'a Found)>;
+type Run<'a> = Option<(&'a TestEstimate, &'a Estimate)>;
 
 /// Explanations whose torque is shown beside the data: the most probable and the next best.
 const SHOWN_EXPLANATIONS: usize = 2;
@@ -82,7 +82,7 @@ fn explained(table: &mut Columns<f64>, (number, test): (usize, &str), run: Run) 
     });
 }
 
-fn times(tests: &[TestFound]) -> Vec<f64> {
+fn times(tests: &[TestEstimate]) -> Vec<f64> {
     let longest = tests.iter().map(|test| {
         let m = &test.measurement;
         m.time.last().copied().unwrap_or(0.0) - m.begin()

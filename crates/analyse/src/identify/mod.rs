@@ -17,32 +17,32 @@
 mod answer;
 mod coast_down;
 mod consequence;
-mod found;
+mod estimate;
 mod history;
 pub mod notes;
 mod per_test;
 mod read;
 
-use found::Found;
+use estimate::Estimate;
 use outcome::options::Options;
 use outcome::{Column, Outcome, Picture, Quantity, Stop, Warning};
-pub use read::Asked;
+pub use read::Request;
 use scenario::Scenario;
 use simulate::assumptions::assumptions;
 
 /// The columns of its history, without values.
-pub fn columns(asked: &Asked) -> Vec<Column> {
+pub fn columns(asked: &Request) -> Vec<Column> {
     history::columns(asked, None)
 }
 
 /// The results of such an identification, without values.
-pub fn results(asked: &Asked) -> Vec<Quantity> {
+pub fn results(asked: &Request) -> Vec<Quantity> {
     answer::name(asked, None)
 }
 
 /// Computes what is asked for and names it.
-pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
-    let found = Found::of(asked, options);
+pub fn run(scenario: &Scenario, asked: &Request, options: &Options) -> Outcome {
+    let found = Estimate::of(asked, options);
     let mut warnings = found.warnings.clone();
     warnings.extend(assumed(scenario, asked));
     let history = history::columns(asked, Some(&found));
@@ -83,7 +83,7 @@ pub fn run(scenario: &Scenario, asked: &Asked, options: &Options) -> Outcome {
 }
 
 /// What is assumed of the bearing and the tests, as far as it counts.
-fn assumed(scenario: &Scenario, asked: &Asked) -> Option<Warning> {
+fn assumed(scenario: &Scenario, asked: &Request) -> Option<Warning> {
     let wish = asked.identify;
     let counts = |path: &str| {
         !(path.starts_with("identify.rotor_friction.") && wish.rotor_friction.is_none()

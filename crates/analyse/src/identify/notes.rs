@@ -119,7 +119,7 @@ fn without_stop(warning: &Warning) -> &str {
 }
 
 /// What the estimators of the signals say.
-pub(super) fn noted(test: &Test, found: &signals::found::Found) -> Vec<Warning> {
+pub(super) fn noted(test: &Test, found: &signals::estimate::Estimate) -> Vec<Warning> {
     (found.warnings.iter())
         .map(|warning| of_test(warning.clone(), &test.name))
         .collect()

@@ -1,6 +1,6 @@
 //! Named results of one test with acceleration.
 
-use crate::identify::found::TestFound;
+use crate::identify::estimate::TestEstimate;
 use identify::Measurement;
 use identify::loss::Loss;
 use identify::slip::Established;
@@ -20,7 +20,7 @@ pub(crate) struct OfTest {
 
 results! {
     /// The results of one test.
-    pub(crate) fn table(of: &OfTest, run: &TestFound) {
+    pub(crate) fn table(of: &OfTest, run: &TestEstimate) {
         "test_*.name": text "" headline, TEST, "name of the test" => run.name.as_str();
         "test_*.radial_load": number "N", TEST, "weight on the bearing" => run.measurement.load;
         "test_*.engagement_time": number "s", ENGAGED, "when the quick change of speed begins" => {
@@ -59,7 +59,7 @@ results! {
 /// Net torque that would bring balls and cage to rolling speed within the time in which the source paper's torque fell, s.
 const FALL: f64 = 3.5;
 
-impl TestFound {
+impl TestEstimate {
     fn excess(
         &self,
         part: fn(&Loss, &Measurement) -> Option<Uncertain>,

@@ -15,11 +15,11 @@ pub struct Test {
     /// What is asked of the channels.
     pub signals: Signals,
     /// The channels.
-    pub asked: Arc<signals::Asked>,
+    pub asked: Arc<signals::Request>,
 }
 
 /// Tests whose channels were read, and what is asked of them.
-pub struct Asked<'a> {
+pub struct Request<'a> {
     /// What is asked.
     pub identify: &'a Identify,
     /// Slow tests.
@@ -30,14 +30,14 @@ pub struct Asked<'a> {
     pub rotor: Option<Test>,
 }
 
-impl Asked<'_> {
+impl Request<'_> {
     /// Reads all files; refuses what is not there or not what it should be.
-    pub fn of(identify: &Identify) -> Result<Asked<'_>> {
+    pub fn of(identify: &Identify) -> Result<Request<'_>> {
         let list = |key: &'static str, paths: &[std::path::PathBuf]| {
             let read = |path: &std::path::PathBuf| test(key, path, identify, true);
             paths.iter().map(read).collect::<Result<Vec<_>, _>>()
         };
-        Ok(Asked {
+        Ok(Request {
             coast_downs: list("identify.coast_down", &identify.coast_downs)?,
             tests: list("identify.tests", &identify.tests)?,
             rotor: match &identify.rotor_friction {
@@ -56,7 +56,7 @@ fn test(key: &'static str, path: &Path, identify: &Identify, with_torque: bool) 
     let refuse = |code, found: String, needed: &str| {
         problem_at(code, key, format!("{}, {found}", path.display()), needed)
     };
-    let (scenario, signals) = signals::asked::signals_file(key, path)?;
+    let (scenario, signals) = signals::request::signals_file(key, path)?;
     let coasts = key == "identify.coast_down"
         && (signals.steady.as_ref()).is_some_and(|steady| steady.inertia.is_some());
     if signals.speed.is_none() || (with_torque && signals.torque.is_none() && !coasts) {
@@ -95,7 +95,7 @@ fn test(key: &'static str, path: &Path, identify: &Identify, with_torque: bool) 
             "the weight on the bearing is needed, in each signals file or as identify.radial_load, e.g. \"60 N\"",
         ));
     }
-    let asked = signals::Asked::of(&signals).map_err(|problem| scenario.locate(problem))?;
+    let asked = signals::Request::of(&signals).map_err(|problem| scenario.locate(problem))?;
     Ok(Test {
         name: name(path),
         load,

@@ -1,6 +1,6 @@
 //! The closed loop of a rotor on magnets: refused where it does not hold, else poles, sensitivity, static and turning state.
 
-use crate::rotor::asked::gravity;
+use crate::rotor::request::gravity;
 use levitation::response::{Equilibrium, Excess, Synchronous, excesses, unbalance};
 use levitation::sensitivity::{Band, Margins, Peak, Sensitivity, open_loop, zone};
 use levitation::{

@@ -4,16 +4,16 @@
 //!
 //! Not modelled: torsion, axial motion, stress stiffening, shafts that are not round, supports that hold the slope.
 
-pub(crate) mod asked;
 pub(crate) mod levitated;
 pub(crate) mod quantities;
+pub(crate) mod request;
 pub(crate) mod rolling;
 pub mod warnings;
 pub(crate) mod whirl;
 
 use crate::interruptible::{INTERRUPTED, interruptible};
-pub use crate::rotor::asked::Asked;
-use crate::rotor::asked::{Found, Motion, sense};
+pub use crate::rotor::request::Request;
+use crate::rotor::request::{Analyses, Motion, sense};
 use outcome::columns::{Columns, columns};
 use outcome::options::Options;
 use outcome::{Column, Outcome, Picture, Quantity, Stop};
@@ -21,17 +21,17 @@ use scenario::Scenario;
 use std::sync::Arc;
 
 /// The columns of its history, without values.
-pub fn columns(asked: &Asked) -> Vec<Column> {
+pub fn columns(asked: &Request) -> Vec<Column> {
     history(asked, None)
 }
 
 /// The results of such an analysis, without values.
-pub fn results(asked: &Asked) -> Vec<Quantity> {
+pub fn results(asked: &Request) -> Vec<Quantity> {
     quantities::name(asked, None)
 }
 
 /// Computes everything and names it.
-pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
+pub fn run(scenario: &Scenario, asked: &Arc<Request>, options: &Options) -> Outcome {
     let own = Arc::clone(asked);
     // an eigenproblem knows of no interrupt: its thread is left
     let found = interruptible(options.interrupt, move || {
@@ -72,7 +72,7 @@ pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcom
 }
 
 /// The curves over speed, which is the first column.
-fn history(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
+fn history(asked: &Request, found: Option<&Analyses>) -> Vec<Column> {
     let rolling = asked.rolling.as_ref().and_then(|own| own.as_ref().ok());
     let rolled = found.and_then(|found| found.rolling.as_deref());
     let own = found.iter().flat_map(|found| found.speeds.iter());
@@ -96,7 +96,7 @@ fn history(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
 }
 
 /// Branches and responses, their names after what begins them.
-fn over_speed(table: &mut Columns<f64>, begin: &str, asked: &Asked, found: Option<&Found>) {
+fn over_speed(table: &mut Columns<f64>, begin: &str, asked: &Request, found: Option<&Analyses>) {
     // speeds close to critical ones are of the responses alone
     let at = |speeds: &[f64], speed: f64| speeds.binary_search_by(|own| own.total_cmp(&speed)).ok();
     let diagram = found.map(|found| &found.diagram);

@@ -1,6 +1,6 @@
 //! The named results of the analysis of a rotor.
 
-use crate::rotor::asked::{Asked, Found, Motion, gravity, sense, support_label};
+use crate::rotor::request::{Analyses, Motion, Request, gravity, sense, support_label};
 use crate::rotor::{levitated, rolling, whirl};
 use outcome::Quantity;
 use outcome::list::results;
@@ -9,7 +9,7 @@ use rotor::{C64, Critical, Mode, Response, Whirl};
 use simulate::drawing::{self, GIVEN};
 
 /// Names the results, in the order of the report; without a second argument those of any such analysis.
-pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
+pub(crate) fn name(asked: &Request, found: Option<&Analyses>) -> Vec<Quantity> {
     let mut list = List::default();
     body(&mut list, asked, found);
     on_supports(&mut list, asked, found, true);
@@ -48,7 +48,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 }
 
 /// Motion of the rotor on its supports; `whole` with the modes of the free rotor.
-pub(crate) fn on_supports(list: &mut List, asked: &Asked, found: Option<&Found>, whole: bool) {
+pub(crate) fn on_supports(list: &mut List, asked: &Request, found: Option<&Analyses>, whole: bool) {
     criticals(list, asked, found);
     let all = found.map(|found| &found.criticals[..]);
     list.numbered(all, |list, one| critical(list, asked, one));
@@ -72,7 +72,7 @@ pub(crate) fn on_supports(list: &mut List, asked: &Asked, found: Option<&Found>,
 }
 
 /// Why a response at a speed has no bound: a mode without damping whirls once a turn there.
-pub(crate) fn undamped(found: &Found, speed: f64) -> Option<String> {
+pub(crate) fn undamped(found: &Analyses, speed: f64) -> Option<String> {
     let undamped = found.criticals.iter().find(|critical| {
         let near = (critical.speed / speed - 1.0).abs() < 1e-6;
         near && critical.amplification() == Some(f64::INFINITY)
@@ -83,7 +83,7 @@ pub(crate) fn undamped(found: &Found, speed: f64) -> Option<String> {
 }
 
 results! {
-    fn body(asked: &Asked, run: &Found) {
+    fn body(asked: &Request, run: &Analyses) {
         "mass": number "kg" headline, BODY, "mass of the rotor" in properties "mass" in rotor_line "mass" => rotor::properties(asked.rotor()).mass;
         "mass_centre": number "m" headline, BODY, "position of its centre of mass" in properties "mass centre" => rotor::properties(asked.rotor()).centre;
         "polar_inertia": number "kg m^2", BODY, "polar moment of inertia" in properties "polar inertia" => rotor::properties(asked.rotor()).polar;
@@ -93,13 +93,13 @@ results! {
         "node_count": number "", ELEMENT, "number of nodes" in properties "nodes" => asked.rotor().nodes.len() as f64;
     }
 
-    fn criticals(asked: &Asked, run: &Found) {
+    fn criticals(asked: &Request, run: &Analyses) {
         "first_critical_speed": number "rad/s" headline, CRITICAL, "lowest critical speed that is not of backward whirl" in tile "First critical speed" => run.first_critical();
         "critical_speeds": list "rad/s", CRITICAL, "critical speeds" => run.criticals.iter().map(|one| one.speed).collect::<Vec<_>>();
         "critical_whirls": text "", CRITICAL, "sense of whirl at each of them" in criticals_whirl "whirl" => run.whirls();
     }
 
-    fn critical(asked: &Asked, run: &Critical) {
+    fn critical(asked: &Request, run: &Critical) {
         "critical_*.speed": number "rad/s" headline, CRITICAL, "critical speed" in criticals "speed" => run.speed;
         "critical_*.damping_ratio": number "", MODE, "damping ratio of the mode there" => run.mode.damping_ratio();
         "critical_*.amplification": number "" headline, AMPLIFICATION, "amplification factor of the mode there" in criticals "amplification" => amplification(run);
@@ -109,12 +109,12 @@ results! {
         "critical_*.verdict": text "" headline, SEPARATION, "verdict on its margin" in criticals "verdict" when asked.analysis.separation_margin.is_some() => asked.verdict(run);
     }
 
-    fn stability(asked: &Asked, run: &Found) {
+    fn stability(asked: &Request, run: &Analyses) {
         "separation_verdict": text "" headline, SEPARATION, "verdict on all critical speeds" in tile "Separation" in bound "fail / pass", unless asked.no_margin() => asked.whole_verdict(run);
         "first_unstable_speed": number "rad/s" headline, STABILITY, "lowest speed at which a motion grows" => asked.first_unstable(run);
     }
 
-    fn bending(asked: &Asked, run: &Found) {
+    fn bending(asked: &Request, run: &Analyses) {
         "free_bending_frequencies": list "rad/s", MODE, "natural frequencies of bending of the free rotor at rest" in free_bending "frequency" => {
             asked.bending().map(|k| asked.full.frequencies[k]).collect::<Vec<_>>()
         };
@@ -123,22 +123,22 @@ results! {
         };
     }
 
-    fn bending_mode(of: &(&Asked, usize), run: &Found) {
+    fn bending_mode(of: &(&Request, usize), run: &Analyses) {
         "free_mode_*.shape": list "", MODE, "shape of a bending mode of the free rotor at its nodes" in free_mode_shapes "shape" => of.0.bending_shape(of.1);
     }
 
-    fn mode(asked: &Asked, run: &Mode) {
+    fn mode(asked: &Request, run: &Mode) {
         "mode_*.frequency": number "rad/s", MODE, "damped natural frequency at the rated speed" in modes "frequency" => run.frequency();
         "mode_*.damping_ratio": number "", MODE, "damping ratio at the rated speed" in modes "ζ [%]" => run.damping_ratio();
         "mode_*.whirl": text "", MODE, "sense of whirl at the rated speed" in modes "whirl" => whirl_word(run.whirl);
         "mode_*.shape": list "", MODE, "shape at the nodes, of its larger sense of whirl" in mode_shapes "shape" => shape(run, asked.rotor().nodes.len());
     }
 
-    fn branches(asked: &Asked, run: &Found) {
+    fn branches(asked: &Request, run: &Analyses) {
         "branch_senses": list "", MODE, "whirl of each branch of the diagram: 1 forward, -1 backward, 0 planar" in branches "sense" => run.branch_senses();
     }
 
-    fn response(of: &Shown, run: &Found) {
+    fn response(of: &Shown, run: &Analyses) {
         "*.peak_amplitude": number "m" headline, RESPONSE, "largest response to unbalance, half the longer axis" in responses "largest amplitude" when !of.is_force() => of.amplitude(run, of.peak(run));
         "*.peak_amplitude": number "N" headline, RESPONSE, "largest force under unbalance, half the longer axis" in responses "largest amplitude" when of.is_force() => of.amplitude(run, of.peak(run));
         "*.peak_speed": number "rad/s" headline, RESPONSE, "speed at which it is largest" in responses "at" => of.peak(run).map(|one| one.speed).ok_or_else(|| no_response(run));
@@ -146,23 +146,23 @@ results! {
         "*.rated_amplitude": number "N" headline, RESPONSE, "force under unbalance at the rated speed" in responses "at the rated speed" when of.is_force() => of.amplitude(run, of.rated(run));
     }
 
-    fn deflection(asked: &Asked, run: &Response) {
+    fn deflection(asked: &Request, run: &Response) {
         "deflection_*.speed": number "rad/s", RESPONSE, "speed of a deflected shape" in deflections "speed" => run.speed;
         "deflection_*.x": list "m", RESPONSE, "x of each node when the mark passes" => asked.over_nodes(|node| run.planes(node).0.re);
         "deflection_*.y": list "m", RESPONSE, "y of each node when the mark passes" => asked.over_nodes(|node| run.planes(node).1.re);
         "deflection_*.amplitude": list "m", RESPONSE, "half the longer axis of the orbit of each node" in deflections "amplitude" => asked.over_nodes(|node| run.amplitude(node));
     }
 
-    fn sag(asked: &Asked, run: &Found) {
+    fn sag(asked: &Request, run: &Analyses) {
         "largest_sag": number "m" headline, SAG, "largest sag under weight" in tile "Largest sag" => asked.sag(run).map(|all| all.into_iter().fold(0.0, f64::max));
         "sag": list "m", SAG, "sag of each node under weight" in sag "sag" => asked.sag(run);
     }
 
-    fn support_load(of: &(&Asked, usize), run: &Found) {
+    fn support_load(of: &(&Request, usize), run: &Analyses) {
         "load.*": number "N" headline, SAG, "weight that a support carries" in support_loads "*" => of.0.support_load(run, of.1);
     }
 
-    fn map(asked: &Asked, run: &Found) {
+    fn map(asked: &Request, run: &Analyses) {
         "map_stiffnesses": list "N/m", MAP, "stiffnesses of the supports in the map" in stiffness_map "stiffness" => run.map.iter().map(|point| point.stiffness).collect::<Vec<_>>();
     }
 
@@ -171,7 +171,7 @@ results! {
         "map_backward_*": list "rad/s", MAP, "critical speed of backward whirl at each of them" in stiffness_map "backward" when !*forward => run.clone();
     }
 
-    fn reduction(asked: &Asked, run: &Found) {
+    fn reduction(asked: &Request, run: &Analyses) {
         "coordinates": number "" headline, REDUCTION, "number of coordinates kept" in properties "coordinates of the diagrams" => asked.within.basis.len() as f64;
         "reduction_error": number "" headline, REDUCTION, "largest relative error of eigenvalues that this makes" in tile "Error of the reduction" => {
             run.reduction_error.ok_or_else(|| "all coordinates are kept".to_string())
@@ -221,7 +221,7 @@ fn shape(part: &Mode, nodes: usize) -> Vec<f64> {
 }
 
 /// Why there is no response at a speed.
-fn no_response(found: &Found) -> String {
+fn no_response(found: &Analyses) -> String {
     match found.responses.is_empty() {
         true => "no [[rotor.unbalance]] is given".to_string(),
         false => "a motion grows there: there is no steady response".to_string(),
@@ -230,7 +230,7 @@ fn no_response(found: &Found) -> String {
 
 /// A part of the response, by its number among those watched.
 struct Shown<'a> {
-    asked: &'a Asked,
+    asked: &'a Request,
     motion: Motion,
     k: usize,
 }
@@ -240,16 +240,16 @@ impl Shown<'_> {
         matches!(self.motion, Motion::Force(_))
     }
 
-    fn peak<'a>(&self, found: &'a Found) -> Option<&'a Response> {
+    fn peak<'a>(&self, found: &'a Analyses) -> Option<&'a Response> {
         found.peaks.get(self.k).and_then(Option::as_ref)
     }
 
-    fn rated<'a>(&self, found: &'a Found) -> Option<&'a Response> {
+    fn rated<'a>(&self, found: &'a Analyses) -> Option<&'a Response> {
         let mut all = found.deflections.iter();
         all.find(|one| one.speed == self.asked.analysis.speed)
     }
 
-    fn amplitude(&self, found: &Found, one: Option<&Response>) -> Result<f64, String> {
+    fn amplitude(&self, found: &Analyses, one: Option<&Response>) -> Result<f64, String> {
         let one = one.ok_or_else(|| no_response(found))?;
         match undamped(found, one.speed) {
             Some(why) => Err(why),
@@ -258,7 +258,7 @@ impl Shown<'_> {
     }
 }
 
-impl Found {
+impl Analyses {
     fn first_critical(&self) -> Result<f64, String> {
         let mut all = self.criticals.iter();
         let first = all.find(|one| one.mode.whirl != Whirl::Backward);
@@ -304,7 +304,7 @@ impl Found {
     }
 }
 
-impl Asked {
+impl Request {
     /// Whether a response to unbalance is sought.
     pub(crate) fn responds(&self) -> bool {
         self.held && !self.rotor().unbalance.is_empty()
@@ -361,7 +361,7 @@ impl Asked {
     }
 
     /// The verdict on all critical speeds.
-    fn whole_verdict(&self, found: &Found) -> &'static str {
+    fn whole_verdict(&self, found: &Analyses) -> &'static str {
         let (from, to) = (self.analysis.operating_from, self.analysis.operating_to);
         let operated = |range: &(f64, f64)| range.0 <= to && range.1 >= from;
         let fails = |one: &Critical| ["fail", "grows"].contains(&self.verdict(one));
@@ -378,7 +378,7 @@ impl Asked {
     }
 
     /// The lowest speed at which a motion grows.
-    fn first_unstable(&self, found: &Found) -> Result<f64, String> {
+    fn first_unstable(&self, found: &Analyses) -> Result<f64, String> {
         let rated = found.growing.map(|_| self.analysis.speed.abs());
         let first = found.unstable.first().map(|(from, _)| *from);
         let none = || "no motion grows up to analysis.speed_to".to_string();
@@ -396,13 +396,13 @@ impl Asked {
         }
     }
 
-    fn sag(&self, found: &Found) -> Result<Vec<f64>, String> {
+    fn sag(&self, found: &Analyses) -> Result<Vec<f64>, String> {
         let sag = found.at_rest()?;
         Ok(self.over_nodes(|displacement| self.along_weight(sag.shape[displacement])))
     }
 
     /// Against gravity: what a support carries; below zero it holds down.
-    fn support_load(&self, found: &Found, support: usize) -> Result<f64, String> {
+    fn support_load(&self, found: &Analyses, support: usize) -> Result<f64, String> {
         Ok(-self.along_weight(found.at_rest()?.loads[support]))
     }
 }

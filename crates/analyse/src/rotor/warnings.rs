@@ -1,6 +1,6 @@
 //! What the user should know of an analysis of a rotor.
 
-use crate::rotor::asked::{Asked, Found};
+use crate::rotor::request::{Analyses, Request};
 use crate::rotor::{levitated, rolling, whirl};
 use outcome::Warning;
 use simulate::drop::shaft_results::against_spin;
@@ -55,7 +55,7 @@ problem::warnings! {
 /// Error of eigenvalues in the reduced coordinates from which a warning is given.
 const REDUCTION: f64 = 1e-5;
 
-pub(crate) fn of(asked: &Asked, found: &Found) -> Vec<Warning> {
+pub(crate) fn of(asked: &Request, found: &Analyses) -> Vec<Warning> {
     let analysis = &asked.analysis;
     let mut out: Vec<Warning> = (asked.levitated.iter())
         .flat_map(|own| levitated::warned(&asked.model, analysis.speed, own))

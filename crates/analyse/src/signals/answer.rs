@@ -1,8 +1,8 @@
 //! Every named result of a measurement with law, source and valid range.
 
 use crate::signals::answer_analysis;
-use crate::signals::asked::{Asked, median};
-use crate::signals::found::Found;
+use crate::signals::estimate::Estimate;
+use crate::signals::request::{Request, median};
 use crate::signals::torque::{Faulty, faulty};
 use outcome::Quantity;
 use outcome::list::results;
@@ -10,7 +10,7 @@ use outcome::list::{List, origins};
 use scenario::PickupKind;
 
 /// Names the results, of what was not asked for none; without a second argument those of any such measurement.
-pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
+pub(crate) fn name(asked: &Request, found: Option<&Estimate>) -> Vec<Quantity> {
     let mut list = List::default();
     file(&mut list, asked, found);
     if asked.speed.is_some() {
@@ -29,7 +29,7 @@ pub(crate) fn name(asked: &Asked, found: Option<&Found>) -> Vec<Quantity> {
 }
 
 results! {
-    fn file(asked: &Asked, run: &Found) {
+    fn file(asked: &Request, run: &Estimate) {
         "channels": text "" headline, FILE, "channels of the file with unit, number of values and rate" in channels "channels" => asked.channels();
         "file_notes": text "", FILE, "what to know of the file" => match asked.notes.as_slice() {
             [] => "none".to_string(),
@@ -37,7 +37,7 @@ results! {
         };
     }
 
-    fn speed(asked: &Asked, run: &Found) {
+    fn speed(asked: &Request, run: &Estimate) {
         "speed_noise": number "rad/s", CHANNEL, "noise of one value of the channel" when asked.holds_speed() => run.channel().map(|c| c.noise);
         "speed_step": number "rad/s", CHANNEL, "smallest step of the channel" when asked.holds_speed() => run.channel().map(|c| c.step);
         "pulse_count": number "" headline, PULSES, "number of pulses" => run.pulses().map(|pulses| pulses.times.len() as f64);
@@ -62,13 +62,13 @@ results! {
         "change_from_rest": text "", CHANGE, "whether the shaft rested before it" => run.change().map(|c| if c.from_rest { "yes" } else { "no" });
     }
 
-    fn reading(asked: &Asked, run: &Faulty) {
+    fn reading(asked: &Request, run: &Faulty) {
         "torque_clipped_values": number "", FAULTS, "values at the limit of the converter" in repairs "torque: values at the limit of the converter" => run.clipped as f64;
         "torque_stuck_values": number "", FAULTS, "values held without noise" in repairs "torque: values held without noise" => run.stuck as f64;
         "torque_missing_values": number "", FAULTS, "values that are no numbers" in repairs "torque: values that are no numbers" => run.missing as f64;
     }
 
-    fn torque(asked: &Asked, run: &Found) {
+    fn torque(asked: &Request, run: &Estimate) {
         "sensor_frequency": number "Hz" headline, SENSOR, "natural frequency of the sensor" in sensor "sensor" => run.sensor().map(|s| s.frequency.value);
         "sensor_frequency_deviation": number "Hz", SENSOR, "its standard deviation" => run.sensor().map(|s| s.frequency.deviation);
         "sensor_damping_ratio": number "1", SENSOR, "damping ratio of the sensor" => run.sensor().map(|s| s.damping_ratio.value);
@@ -91,7 +91,7 @@ results! {
         "sensor_design_inverted_errors": list "N m", DESIGN, "error of the torque from each of them" in sensor_design "inverted" => run.designs(|e| e.inverted);
     }
 
-    fn cage(asked: &Asked, run: &Found) {
+    fn cage(asked: &Request, run: &Estimate) {
         "median_cage_slip": number "1" headline, CAGE, "median of the slip of the cage" in tile "Median slip of the cage [%]" => run.cage(|c| median(&c.slip));
         "median_cage_slip_deviation": number "1" headline, CAGE, "median of its standard deviation" => run.cage(|c| median(&c.slip_deviation));
         "cage_slip_at_end": number "1", CAGE, "slip of the cage at the end" => run.cage(|c| last(&c.slip));
@@ -113,7 +113,7 @@ fn at_largest(sizes: &[f64], values: &[f64]) -> f64 {
     value.copied().unwrap_or(f64::NAN)
 }
 
-impl Asked {
+impl Request {
     /// The channels in words.
     fn channels(&self) -> String {
         let texts = self.listed.iter().map(|channel| {

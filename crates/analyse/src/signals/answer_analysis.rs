@@ -1,14 +1,14 @@
 //! Named results of a vibration, of slow runs and of the converter, with law, source and valid range.
 
-use crate::signals::asked::{Asked, median, sampled};
-use crate::signals::found::Found;
+use crate::signals::estimate::Estimate;
+use crate::signals::request::{Request, median, sampled};
 use identify::steady_curve::SteadyCurve;
 use outcome::list::results;
 use outcome::list::{List, origins};
 use recording::unit::unit_in_si;
 
 /// Names the results; what was not asked for has none.
-pub(crate) fn name(list: &mut List, asked: &Asked, found: Option<&Found>) {
+pub(crate) fn name(list: &mut List, asked: &Request, found: Option<&Estimate>) {
     if sampled(asked).any(|series| series.converter.is_some()) {
         converter(list, asked, found);
     }
@@ -25,7 +25,7 @@ pub(crate) fn name(list: &mut List, asked: &Asked, found: Option<&Found>) {
 }
 
 results! {
-    fn converter(asked: &Asked, run: &Found) {
+    fn converter(asked: &Request, run: &Estimate) {
         "converter_clipped_values": number "", CONVERTER, "values at the limits" in repairs "values at the limits of the converter, all its channels" => run.converted.iter().map(|one| one.clipped as f64).sum::<f64>();
         "converter_rounding_share_of_noise": number "1", CONVERTER, "largest share of the noise that is rounding" in repairs "rounding of the converter, largest share of a channel's noise" => {
             run.converted.iter().map(|one| one.rounding_share).fold(0.0, f64::max)
@@ -33,12 +33,12 @@ results! {
     }
 
     /// The amplitudes are in the unit of the channel.
-    fn orders(asked: &Asked, run: &Found) {
+    fn orders(asked: &Request, run: &Estimate) {
         "vibration_orders": list "1", ORDERS, "orders of the shaft" in orders "order" => run.orders(|o| o.order);
         "vibration_order_amplitudes": list "1", ORDERS, "median amplitude of each order" in orders "amplitude" => run.orders(|o| median(&o.amplitude()));
     }
 
-    fn spectrograms(asked: &Asked, run: &Found) {
+    fn spectrograms(asked: &Request, run: &Estimate) {
         "vibration_spectrogram_times": list "s", SPECTROGRAM, "times of the spectrogram" => run.vibration(|v| &v.over_time).map(|p| p.time.clone());
         "vibration_spectrogram_frequencies": list "Hz", SPECTROGRAM, "its frequencies" => run.vibration(|v| &v.over_time).map(|p| p.upright.clone());
         "vibration_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_time).map(|p| p.levels.clone());
@@ -47,7 +47,7 @@ results! {
         "vibration_order_spectrogram_levels": list "1", SPECTROGRAM, "its levels" => run.vibration(|v| &v.over_order).map(|p| p.levels.clone());
     }
 
-    fn steady(asked: &Asked, run: &Found) {
+    fn steady(asked: &Request, run: &Estimate) {
         "steady_inertia": number "kg m^2", INERTIA, "moment of inertia of what coasts" in slow_inertia "I" => run.steady(|p| &p.inertia).map(|i| i.value);
         "steady_inertia_deviation": number "kg m^2", INERTIA, "its standard deviation" => run.steady(|p| &p.inertia).map(|i| i.deviation);
         "steady_speeds": list "rad/s", STEADY, "speeds of the curves" in slow_speeds "speed" => run.slow().map(|p| p.speed.clone());
@@ -76,7 +76,7 @@ results! {
     }
 }
 
-impl Asked {
+impl Request {
     fn has_windage(&self) -> bool {
         (self.signals.steady.as_ref()).is_some_and(|wish| wish.windage.is_some())
     }

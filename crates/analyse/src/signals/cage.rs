@@ -1,6 +1,6 @@
 //! Speed and slip of the cage from what its balls show.
 
-use crate::signals::asked::Signal;
+use crate::signals::request::Signal;
 use crate::signals::shaft;
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
@@ -25,7 +25,7 @@ const APART: f64 = 3.0;
 const RATIO: f64 = 0.01;
 
 /// The motion of the cage.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     /// For other estimators: where nothing is told, the speed is any of the slips that were looked for.
     pub cage: CageSpeed,
     /// As it is told: not-a-number where nothing is.
@@ -35,12 +35,12 @@ pub(crate) struct Found {
     pub notes: Vec<String>,
 }
 
-impl Found {
+impl Estimate {
     pub(super) fn of(
         signal: &Signal,
         wish: &CageSignal,
-        shaft: &shaft::Found,
-    ) -> Result<Found, String> {
+        shaft: &shaft::Estimate,
+    ) -> Result<Estimate, String> {
         let engagement = shaft.speed.change.map(|change| change.engagement.0);
         let change = shaft.speed.change.map(|change| QuickChange {
             engagement: change.engagement.0,
@@ -115,7 +115,7 @@ impl Found {
                 cage.deviation[k] = rolling.abs() * width / 12f64.sqrt();
             }
         }
-        Ok(Found {
+        Ok(Estimate {
             cage,
             told,
             rolling_ratio: ratio,
@@ -130,7 +130,7 @@ impl Found {
         &self,
         wish: &CageSignal,
         marks: usize,
-        shaft: &shaft::Found,
+        shaft: &shaft::Estimate,
     ) -> Option<String> {
         let slip = self.at_speed(shaft)?;
         let apart = APART * slip.deviation;
@@ -171,7 +171,7 @@ impl Found {
     }
 
     /// The slip behind a quick change, at speed.
-    fn at_speed(&self, shaft: &shaft::Found) -> Option<Uncertain> {
+    fn at_speed(&self, shaft: &shaft::Estimate) -> Option<Uncertain> {
         let change = shaft.speed.change;
         let from = change.map_or(f64::NEG_INFINITY, |change| {
             change.end.map_or(change.engagement.0, |end| end.0)
@@ -189,11 +189,11 @@ impl Found {
         if slips.len() < 3 {
             return None;
         }
-        let middle = crate::signals::asked::median(&slips);
+        let middle = crate::signals::request::median(&slips);
         let away: Vec<f64> = slips.iter().map(|slip| (slip - middle).abs()).collect();
         // 0.6745: the median of the size of a normal error of deviation 1
-        let spread = (crate::signals::asked::median(&away) / 0.6745)
-            .max(crate::signals::asked::median(&deviations));
+        let spread = (crate::signals::request::median(&away) / 0.6745)
+            .max(crate::signals::request::median(&deviations));
         Some(Uncertain::new(middle, spread))
     }
 }

@@ -23,7 +23,7 @@ pub(crate) fn errors(
     wish: &TorqueSignal,
     torque: Option<&Torque>,
     sensor: Option<Sensor>,
-    shaft: Option<&shaft::Found>,
+    shaft: Option<&shaft::Estimate>,
 ) -> Result<Vec<DesignError>, String> {
     let until = (wish.design_until)
         .ok_or_else(|| "signals.torque.design_until is not given".to_string())?;

@@ -1,7 +1,7 @@
 //! The history of a measurement: what was read beside what it means.
 
-use crate::signals::asked::{Asked, Signal};
-use crate::signals::found::Found;
+use crate::signals::estimate::Estimate;
+use crate::signals::request::{Request, Signal};
 use crate::signals::{cage, shaft};
 use measure::cage_speed::CageSpeed;
 use measure::order::Order;
@@ -19,7 +19,7 @@ const ROWS: usize = 4000;
 const ROWS_OF_CHANGE: usize = 1500;
 
 /// Channels over time; what an estimator refuses has none.
-pub(crate) fn columns(asked: &Asked, found: Option<&Found>) -> Vec<Column> {
+pub(crate) fn columns(asked: &Request, found: Option<&Estimate>) -> Vec<Column> {
     let times = found.map_or_else(Vec::new, |found| times(asked, found));
     let mut table = Columns::over(&times);
     columns! { table, |time| "time": "s", "time on the clock of the file" => *time; }
@@ -65,7 +65,7 @@ fn of_shaft(
     table: &mut Columns<f64>,
     times: &[f64],
     wish: &SpeedSignal,
-    shaft: Option<&shaft::Found>,
+    shaft: Option<&shaft::Estimate>,
 ) {
     let motions: Vec<Motion> = (shaft.iter())
         .flat_map(|shaft| times.iter().map(|&time| shaft.speed.at(time)))
@@ -92,7 +92,7 @@ fn of_shaft(
 }
 
 /// Torque without the swing of its sensor.
-fn of_torque(table: &mut Columns<f64>, torque: Option<&Torque>, shaft: Option<&shaft::Found>) {
+fn of_torque(table: &mut Columns<f64>, torque: Option<&Torque>, shaft: Option<&shaft::Estimate>) {
     let change = shaft.and_then(|shaft| shaft.speed.change);
     let lock = change.and_then(|change| change.end).map(|end| end.0);
     let of = |time: &f64, values: fn(&Torque) -> &[f64]| {
@@ -117,7 +117,11 @@ fn of_torque(table: &mut Columns<f64>, torque: Option<&Torque>, shaft: Option<&s
 }
 
 /// Speed and slip of the cage.
-fn of_cage(table: &mut Columns<f64>, cage: Option<&cage::Found>, shaft: Option<&shaft::Found>) {
+fn of_cage(
+    table: &mut Columns<f64>,
+    cage: Option<&cage::Estimate>,
+    shaft: Option<&shaft::Estimate>,
+) {
     let of = |time: &f64, values: fn(&CageSpeed) -> &[f64]| {
         cage.map_or(f64::NAN, |cage| {
             at(*time, &cage.told.time, values(&cage.told))
@@ -166,7 +170,7 @@ fn of_order(
 }
 
 /// Rows at equal times over all that was read, and closer ones around a quick change.
-fn times(asked: &Asked, found: &Found) -> Vec<f64> {
+fn times(asked: &Request, found: &Estimate) -> Vec<f64> {
     let mut spans = Vec::new();
     for signal in [&asked.speed, &asked.cage].into_iter().flatten() {
         match signal {

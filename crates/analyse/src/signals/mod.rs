@@ -11,14 +11,14 @@
 
 mod answer;
 mod answer_analysis;
-pub(crate) mod asked;
 pub(crate) mod cage;
 mod converter;
 mod design;
-pub(crate) mod found;
+pub(crate) mod estimate;
 mod history;
 mod mains;
 mod read;
+pub(crate) mod request;
 pub(crate) mod shaft;
 mod spectrum;
 pub(crate) mod steady;
@@ -28,9 +28,9 @@ mod vibration;
 pub mod warning_table;
 
 use crate::interruptible::{INTERRUPTED, interruptible};
-pub use crate::signals::asked::Asked;
-use crate::signals::asked::{capital, sampled};
-use crate::signals::found::Found;
+use crate::signals::estimate::Estimate;
+pub use crate::signals::request::Request;
+use crate::signals::request::{capital, sampled};
 use crate::signals::warning_table::SignalsWarning;
 use identify::coasting::Windage;
 use outcome::options::Options;
@@ -47,7 +47,7 @@ const OF_GIVEN_SENSOR: &[&str] = &[
 ];
 
 /// What is assumed of the sensor, where it counts.
-fn assumed(scenario: &Scenario, asked: &Asked, found: &Found) -> Option<Warning> {
+fn assumed(scenario: &Scenario, asked: &Request, found: &Estimate) -> Option<Warning> {
     found.torque.as_ref()?;
     let sensor = asked.signals.torque.as_ref()?.sensor.as_ref()?;
     let given = matches!(sensor, SensorSource::Given { .. });
@@ -69,11 +69,11 @@ fn not_asked<T>() -> Result<T, String> {
 }
 
 /// A vibration and slow runs, which need the shaft.
-fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
+fn more(asked: &Arc<Request>, interrupt: &AtomicBool, found: &mut Estimate) {
     if asked.vibration.is_some() && asked.signals.vibration.is_some() {
         let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
         let vibration = move || match (&own.vibration, &own.signals.vibration, &shaft) {
-            (Some(series), Some(wish), Some(shaft)) => vibration::Found::of(series, wish, shaft),
+            (Some(series), Some(wish), Some(shaft)) => vibration::Estimate::of(series, wish, shaft),
             _ => no_shaft(),
         };
         if let Some(vibration) = found.answer("vibration", interruptible(interrupt, vibration)) {
@@ -92,7 +92,7 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
         match (&own.signals.steady, &shaft) {
             (Some(wish), Some(shaft)) => {
                 let windage = windage(wish, &own, &AtomicBool::new(false));
-                steady::Found::of(wish, shaft, reading, own.signals.torque.as_ref(), windage)
+                steady::Estimate::of(wish, shaft, reading, own.signals.torque.as_ref(), windage)
             }
             _ => no_shaft(),
         }
@@ -109,7 +109,7 @@ fn more(asked: &Arc<Asked>, interrupt: &AtomicBool, found: &mut Found) {
 /// What brakes the shaft without the bearing, by its law or by the run without it.
 pub(crate) fn windage(
     wish: &SteadySignal,
-    asked: &Asked,
+    asked: &Request,
     interrupt: &AtomicBool,
 ) -> Result<Windage, String> {
     steady::windage(wish, || {
@@ -128,8 +128,8 @@ pub(crate) fn windage(
 }
 
 /// Computes what is asked for, part by part until an interrupt.
-pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
-    let mut found = Found::default();
+pub(crate) fn find(asked: &Arc<Request>, interrupt: &AtomicBool) -> Estimate {
+    let mut found = Estimate::default();
     found.warn("The file", &asked.notes, |about, note| {
         SignalsWarning::File { about, note }
     });
@@ -158,7 +158,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     if asked.speed.is_some() && asked.signals.speed.is_some() {
         let own = Arc::clone(asked);
         let shaft = move || match (&own.speed, &own.signals.speed) {
-            (Some(signal), Some(wish)) => shaft::Found::of(signal, wish, watched),
+            (Some(signal), Some(wish)) => shaft::Estimate::of(signal, wish, watched),
             _ => not_asked(),
         };
         if let Some(shaft) = found.answer("speed", interruptible(interrupt, shaft)) {
@@ -171,7 +171,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             found.warn("Largest speed", odd.as_slice(), |about, note| {
                 SignalsWarning::LargestSpeed { about, note }
             });
-            if let shaft::Seen::Channel(channel) = &shaft.seen {
+            if let shaft::MotionSource::Channel(channel) = &shaft.seen {
                 found.warn("Speed", channel.doubt.as_slice(), |about, note| {
                     SignalsWarning::SpeedChannel { about, note }
                 });
@@ -190,7 +190,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
         let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
         let torque = move || match (&own.torque, &own.signals.torque) {
             (Some(series), Some(wish)) => {
-                torque::Found::of(series, &faults, wish, own.tap.as_ref(), shaft.as_deref())
+                torque::Estimate::of(series, &faults, wish, own.tap.as_ref(), shaft.as_deref())
             }
             _ => not_asked(),
         };
@@ -203,7 +203,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
     if let (Some(_), Some(wish)) = (&asked.cage, &asked.signals.cage) {
         let (own, shaft) = (Arc::clone(asked), found.shaft.clone());
         let cage = move || match (&own.cage, &own.signals.cage, &shaft) {
-            (Some(signal), Some(wish), Some(shaft)) => cage::Found::of(signal, wish, shaft),
+            (Some(signal), Some(wish), Some(shaft)) => cage::Estimate::of(signal, wish, shaft),
             _ => no_shaft(),
         };
         if let Some(cage) = found.answer("cage", interruptible(interrupt, cage)) {
@@ -219,7 +219,7 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
             found.cage = Some(cage);
         }
     }
-    found.temperature = asked.temperature.as_ref().map(temperature::Found::of);
+    found.temperature = asked.temperature.as_ref().map(temperature::Estimate::of);
     more(asked, interrupt, &mut found);
     let refused: Vec<Warning> = found
         .refused
@@ -239,17 +239,17 @@ pub(crate) fn find(asked: &Arc<Asked>, interrupt: &AtomicBool) -> Found {
 }
 
 /// The columns of its history, without values.
-pub fn columns(asked: &Asked) -> Vec<Column> {
+pub fn columns(asked: &Request) -> Vec<Column> {
     history::columns(asked, None)
 }
 
 /// The results of such a measurement, without values.
-pub fn results(asked: &Asked) -> Vec<Quantity> {
+pub fn results(asked: &Request) -> Vec<Quantity> {
     answer::name(asked, None)
 }
 
 /// Computes what is asked for and names it.
-pub fn run(scenario: &Scenario, asked: &Arc<Asked>, options: &Options) -> Outcome {
+pub fn run(scenario: &Scenario, asked: &Arc<Request>, options: &Options) -> Outcome {
     let mut found = find(asked, options.interrupt);
     found.warnings.extend(assumed(scenario, asked, &found));
     let history = history::columns(asked, Some(&found));

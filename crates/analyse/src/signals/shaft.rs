@@ -1,7 +1,7 @@
 //! Speed and acceleration of the shaft from the pulses of its pickup, or from a speed that an instrument shows.
 
-use crate::signals::asked::Signal;
 use crate::signals::read::Series;
+use crate::signals::request::Signal;
 use measure::pulse::{
     Edges, Flank, Gap, Marks, Pitch, Pulses, Wheel, calibrate, check_marks, edges, number,
 };
@@ -26,10 +26,10 @@ const BESIDE_SET: f64 = 0.15;
 const LOOKS: usize = 4000;
 
 /// The motion of the shaft.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     pub speed: Speed,
     /// What it was found from.
-    pub seen: Seen,
+    pub seen: MotionSource,
     /// Where the acceleration is largest: in the quick change in its direction, by size where there is none.
     pub peak: Motion,
     /// Where the largest speed is.
@@ -46,7 +46,7 @@ pub(crate) struct Found {
 }
 
 /// What a motion was found from.
-pub(crate) enum Seen {
+pub(crate) enum MotionSource {
     /// Marks that passed.
     Marks {
         pulses: Pulses,
@@ -76,7 +76,7 @@ pub(crate) struct Channel {
 /// A motion and what it was found from, before it is looked at.
 struct Smoothed {
     speed: Speed,
-    seen: Seen,
+    seen: MotionSource,
     notes: Vec<String>,
     doubt: Option<String>,
     watched: (f64, f64),
@@ -138,7 +138,7 @@ fn by_marks(
     Ok(Smoothed {
         watched: pulses.watched,
         speed,
-        seen: Seen::Marks { pulses, pitch },
+        seen: MotionSource::Marks { pulses, pitch },
         notes,
         doubt,
     })
@@ -165,7 +165,7 @@ fn by_channel(
         .map_or(0.0, |bandwidth| 1.0 / (TAU * bandwidth));
     Ok(Smoothed {
         watched: (series.first, series.last()),
-        seen: Seen::Channel(Channel {
+        seen: MotionSource::Channel(Channel {
             series: series.clone(),
             late: instrument.delay + lag,
             noise: shown.noise,
@@ -179,13 +179,13 @@ fn by_channel(
     })
 }
 
-impl Found {
+impl Estimate {
     /// `watched`: time over which another channel was recorded, for instants that state none of their own.
     pub(super) fn of(
         signal: &Signal,
         wish: &SpeedSignal,
         watched: Option<(f64, f64)>,
-    ) -> Result<Found, String> {
+    ) -> Result<Estimate, String> {
         let Smoothed {
             speed,
             seen,
@@ -213,8 +213,8 @@ impl Found {
         notes.splice(0..0, speed.notes.iter().cloned());
         let (first, last) = watched;
         let seen_values = match &seen {
-            Seen::Marks { pulses, .. } => pulses.times.len(),
-            Seen::Channel(channel) => channel.series.values.len(),
+            MotionSource::Marks { pulses, .. } => pulses.times.len(),
+            MotionSource::Channel(channel) => channel.series.values.len(),
         };
         let most = (INTERVALS_PER_PULSE * seen_values).max(FEWEST_INTERVALS) as f64;
         let interval = ((last - first) / 20_000.0)
@@ -255,7 +255,7 @@ impl Found {
         let (Some(peak), Some(fastest)) = (peak, fastest) else {
             return Err("the record has no length".to_string());
         };
-        Ok(Found {
+        Ok(Estimate {
             peak,
             fastest,
             notes,
@@ -284,8 +284,8 @@ impl Found {
     /// Last time at which a motion is known, s: a mark's time behind the last one; of a channel its last value.
     pub fn told_until(&self) -> f64 {
         let (pulses, watched) = match &self.seen {
-            Seen::Marks { pulses, .. } => (pulses, self.watched.1),
-            Seen::Channel(_) => return self.watched.1,
+            MotionSource::Marks { pulses, .. } => (pulses, self.watched.1),
+            MotionSource::Channel(_) => return self.watched.1,
         };
         let Some(last) = pulses.times.last() else {
             return watched;
@@ -297,25 +297,27 @@ impl Found {
     /// When a shaft that rests at the end was last seen to turn, s; of marks none.
     pub fn stop(&self) -> Option<f64> {
         match &self.seen {
-            Seen::Channel(channel) => channel.stop,
-            Seen::Marks { .. } => None,
+            MotionSource::Channel(channel) => channel.stop,
+            MotionSource::Marks { .. } => None,
         }
     }
     /// Angle without a sign of turning from which on the shaft counts as stopped, rad: some marks; of a channel none where it
     /// shows the rest, and any where it does not.
     pub fn silence(&self) -> f64 {
         match &self.seen {
-            Seen::Marks { pulses, .. } => SILENT_MARKS * pulses.pitch(),
-            Seen::Channel(channel) if channel.stop.is_some() => 0.0,
-            Seen::Channel(_) => f64::INFINITY,
+            MotionSource::Marks { pulses, .. } => SILENT_MARKS * pulses.pitch(),
+            MotionSource::Channel(channel) if channel.stop.is_some() => 0.0,
+            MotionSource::Channel(_) => f64::INFINITY,
         }
     }
 
     /// The pulses, where marks were seen; else why there are none.
     pub fn pulses(&self) -> Result<&Pulses, String> {
         match &self.seen {
-            Seen::Marks { pulses, .. } => Ok(pulses),
-            Seen::Channel(_) => Err("signals.speed.channel holds a speed, not marks".to_string()),
+            MotionSource::Marks { pulses, .. } => Ok(pulses),
+            MotionSource::Channel(_) => {
+                Err("signals.speed.channel holds a speed, not marks".to_string())
+            }
         }
     }
 
@@ -329,7 +331,7 @@ impl Found {
     pub fn largest_mark_error(&self) -> Result<f64, String> {
         let pulses = self.pulses()?;
         match &self.seen {
-            Seen::Marks {
+            MotionSource::Marks {
                 pitch: Some(pitch), ..
             } => {
                 let sizes = pitch.errors.iter().map(|error| error.abs());
@@ -342,7 +344,7 @@ impl Found {
     /// Speed between the two pulses around a time, or as the instrument shows it, rad/s; not-a-number outside them.
     pub fn raw_speed(&self, time: f64) -> f64 {
         match &self.seen {
-            Seen::Marks { pulses, .. } => {
+            MotionSource::Marks { pulses, .. } => {
                 let next = pulses.times.partition_point(|t| *t <= time);
                 if next == 0 || next >= pulses.times.len() {
                     return f64::NAN;
@@ -350,7 +352,7 @@ impl Found {
                 let marks = (pulses.marks[next] - pulses.marks[next - 1]) as f64;
                 marks * pulses.pitch() / (pulses.times[next] - pulses.times[next - 1])
             }
-            Seen::Channel(Channel { series, .. }) => {
+            MotionSource::Channel(Channel { series, .. }) => {
                 interpolation::at_index(&series.values, (time - series.first) / series.interval)
                     .unwrap_or(f64::NAN)
             }

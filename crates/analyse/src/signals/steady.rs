@@ -25,7 +25,7 @@ const APART: f64 = 3.0;
 const NO_ZERO: &str = "the zero of the reading is not known: signals.torque.zero_deviation is not given, so that the torque by the sensor may be off by any constant, which its band does not hold";
 
 /// Curves of a slow run; each has its reason where there is none.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     pub inertia: Result<Uncertain, String>,
     /// Torque of the sensor while the speed falls.
     pub direct: Result<SteadyCurve, String>,
@@ -43,14 +43,14 @@ pub(crate) struct Found {
     pub doubt: Option<String>,
 }
 
-impl Found {
+impl Estimate {
     pub fn of(
         wish: &SteadySignal,
-        shaft: &shaft::Found,
-        reading: Option<(&Series, &torque::Faulty, Option<&torque::Found>)>,
+        shaft: &shaft::Estimate,
+        reading: Option<(&Series, &torque::Faulty, Option<&torque::Estimate>)>,
         sensor: Option<&TorqueSignal>,
         windage: Result<Windage, String>,
-    ) -> Result<Found, String> {
+    ) -> Result<Estimate, String> {
         let (first, interval, speeds) = speeds((wish.from, wish.to), shaft)?;
         let known = || speeds.iter().copied().filter(|v| v.is_finite());
         let low = known().fold(f64::INFINITY, f64::min);
@@ -145,7 +145,7 @@ impl Found {
             (Ok(direct), Ok(inertial)) => beside(direct, inertial),
             _ => None,
         };
-        Ok(Found {
+        Ok(Estimate {
             windage,
             doubt,
             direct_less_inertial: set(&direct, &inertial).and_then(|all| against.map(|()| all)),
@@ -185,7 +185,7 @@ fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<String> {
 type Coasted = ((f64, f64), Vec<f64>, Uncertain);
 
 /// Speeds of a coast-down at equal times, and the inertia of what coasts: first time, interval, speeds, inertia.
-pub(crate) fn coasted(wish: &SteadySignal, shaft: &shaft::Found) -> Result<Coasted, String> {
+pub(crate) fn coasted(wish: &SteadySignal, shaft: &shaft::Estimate) -> Result<Coasted, String> {
     let source = wish.inertia.as_ref();
     let inertia =
         inertia(source.ok_or_else(|| "signals.steady.inertia is not given".to_string())?)?;
@@ -279,7 +279,7 @@ fn inertia(source: &InertiaSource) -> Result<Uncertain, String> {
 fn torques(
     series: &Series,
     faulty: &torque::Faulty,
-    found: Option<&torque::Found>,
+    found: Option<&torque::Estimate>,
 ) -> (Vec<f64>, Vec<f64>) {
     match found.and_then(|found| found.torque.as_ref()) {
         Some(torque) => (torque.time.clone(), torque.torque.clone()),
@@ -293,10 +293,10 @@ fn torques(
 /// First time, interval and speeds of whole turns at equal times: the errors of the marks drop out of them.
 ///
 /// The mean speed of a turn is that of its middle in time, not in angle: where a turn takes long these are far apart.
-fn speeds(part: (f64, f64), shaft: &shaft::Found) -> Result<(f64, f64, Vec<f64>), String> {
+fn speeds(part: (f64, f64), shaft: &shaft::Estimate) -> Result<(f64, f64, Vec<f64>), String> {
     let pulses = match &shaft.seen {
-        shaft::Seen::Marks { pulses, .. } => pulses,
-        shaft::Seen::Channel(channel) => return shown(part, channel),
+        shaft::MotionSource::Marks { pulses, .. } => pulses,
+        shaft::MotionSource::Channel(channel) => return shown(part, channel),
     };
     let (times, marks) = (&pulses.times, &pulses.marks);
     let turn = pulses.positions as i64;

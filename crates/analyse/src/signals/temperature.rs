@@ -7,7 +7,7 @@ use statistics::interpolation::held;
 const MEAN: f64 = 0.05;
 
 /// Means of the temperature.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     /// Middles of the means, s.
     pub time: Vec<f64>,
     /// Temperature, K.
@@ -16,10 +16,10 @@ pub(crate) struct Found {
     pub deviation: f64,
 }
 
-impl Found {
-    pub fn of(series: &Series) -> Found {
+impl Estimate {
+    pub fn of(series: &Series) -> Estimate {
         let length = ((MEAN / series.interval) as usize).max(1);
-        let mut found = Found {
+        let mut found = Estimate {
             time: Vec::new(),
             temperature: Vec::new(),
             deviation: 0.0,

@@ -34,7 +34,7 @@ const REST: f64 = 0.1;
 const CONTRADICTS: f64 = 5.0;
 
 /// Torque, and the reading it was found from.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     /// The torque; none where no sensor is known.
     pub torque: Option<Torque>,
     pub sensor: Option<Sensor>,
@@ -180,14 +180,14 @@ fn range(values: &[f64]) -> (f64, f64) {
     })
 }
 
-impl Found {
+impl Estimate {
     pub(crate) fn of(
         series: &Series,
         faulty: &Faulty,
         wish: &TorqueSignal,
         tap: Option<&Series>,
-        shaft: Option<&shaft::Found>,
-    ) -> Result<Found, String> {
+        shaft: Option<&shaft::Estimate>,
+    ) -> Result<Estimate, String> {
         let (mut notes, mut doubts) = (Vec::new(), Vec::new());
         let sensor = sensor(wish, tap, &mut notes)?;
         let torque = match sensor {
@@ -210,7 +210,7 @@ impl Found {
                     "{why}: the true one is there or beyond, by an unknown amount, and so is the largest torque"
                 )
             });
-        Ok(Found {
+        Ok(Estimate {
             hidden,
             doubts,
             design: design::errors(wish, torque.as_ref(), sensor, shaft),
@@ -318,13 +318,13 @@ fn inverted(
     faulty: &Faulty,
     wish: &TorqueSignal,
     sensor: Sensor,
-    shaft: Option<&shaft::Found>,
+    shaft: Option<&shaft::Estimate>,
     (notes, doubts): (&mut Vec<String>, &mut Vec<Warning>),
 ) -> Result<Torque, String> {
     let (stated, sensor) = (sensor, resolved(sensor, series.interval, notes));
     let turning = shaft
         .filter(|_| wish.disturbance != Disturbance::None)
-        .map(shaft::Found::shaft);
+        .map(shaft::Estimate::shaft);
     // the part that the shaft covers
     let (mut from, mut to) = (0, series.values.len());
     if let Some(shaft) = &turning {
@@ -356,7 +356,7 @@ fn inverted(
     let span = (high - low).max(high.abs()).max(low.abs());
     let mut zero = Uncertain::new(0.0, wish.zero_deviation.unwrap_or(span));
     let times: Vec<f64> = (from..to).map(|k| series.time(k)).collect();
-    let settled = (shaft.and_then(shaft::Found::stop)).map(|stop| stop + settling_time(&stated));
+    let settled = (shaft.and_then(shaft::Estimate::stop)).map(|stop| stop + settling_time(&stated));
     // what of the reading is of a shaft that rests: before the change, or behind a stop
     let rests = match (change, settled) {
         (Some(change), _) => {

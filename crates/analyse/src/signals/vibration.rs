@@ -28,19 +28,19 @@ pub(crate) struct Picture {
 }
 
 /// What a vibration shows.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     pub orders: Option<Orders>,
     pub over_time: Result<Picture, String>,
     pub over_order: Result<Picture, String>,
     pub notes: Vec<String>,
 }
 
-impl Found {
+impl Estimate {
     pub fn of(
         series: &Series,
         wish: &VibrationSignal,
-        shaft: &shaft::Found,
-    ) -> Result<Found, String> {
+        shaft: &shaft::Estimate,
+    ) -> Result<Estimate, String> {
         let (unit, factor) = unit_in_si(&series.unit);
         let values: Vec<f64> = series.values.iter().map(|v| v * factor).collect();
         let (first, interval) = (series.first, series.interval);
@@ -89,7 +89,7 @@ impl Found {
                 notes.extend(found.notes.iter().cloned());
                 picture(found.time, &found.order, found.amplitude)
             });
-        Ok(Found {
+        Ok(Estimate {
             orders: found,
             over_time,
             over_order,

@@ -1,7 +1,7 @@
 //! What a bearing answers to its loads: plain data, and JSON.
 
 use super::Contacts;
-use super::asked::Asked;
+use super::request::Request;
 use super::warnings::{self, Rows};
 use model::spatial::PreloadSpring;
 use model::spatial::statics::{BallEquilibrium, Displacement, Equilibrium};
@@ -32,7 +32,7 @@ pub struct Ball {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answer {
     /// What was asked.
-    pub asked: Asked,
+    pub asked: Request,
     /// Distance by which the pair is closed, m; 0 without preload.
     pub offset: f64,
     /// Thrust of each row without the loads, N; none without preload.
@@ -61,7 +61,7 @@ fn thrusts(equilibrium: &Equilibrium) -> Vec<f64> {
 
 impl Answer {
     pub(super) fn new(
-        asked: &Asked,
+        asked: &Request,
         contacts: &Contacts,
         offset: f64,
         (loaded, preloaded): (Equilibrium, Option<Equilibrium>),

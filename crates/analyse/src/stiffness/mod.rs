@@ -9,11 +9,11 @@
 //! A deep-groove bearing alone stands with its grooves opposite each other and takes thrust from both sides.
 
 pub mod answer;
-mod asked;
+mod request;
 pub mod warnings;
 
 pub use answer::Answer;
-pub use asked::{Asked, Typed};
+pub use request::{Request, Typed};
 
 use model::spatial::statics::ball::Running;
 use model::spatial::statics::{RingLoad, StaticBall, StaticRow, StaticRows};
@@ -31,7 +31,7 @@ struct Contacts {
     outer: PointContact,
 }
 
-impl Asked {
+impl Request {
     fn contacts(&self) -> std::result::Result<Contacts, NotAPoint> {
         let of = |race: Race, groove_curvature: f64| {
             let geometry = BallRace {
@@ -101,7 +101,7 @@ impl Asked {
 ///
 /// # Errors
 /// A preload that no contact angle carries, and loads under which no equilibrium is found.
-pub fn run(asked: &Asked, place: &str) -> Result<Answer> {
+pub fn run(asked: &Request, place: &str) -> Result<Answer> {
     let impossible =
         |found: String, allowed: &str| Problem::new(Code::Impossible, place, found, allowed);
     let contacts = asked.contacts();

@@ -1,7 +1,7 @@
 //! What to know before the stiffness of a bearing is used.
 
 use super::answer::Ball;
-use super::asked::Asked;
+use super::request::Request;
 use model::spatial::PreloadSpring;
 use model::spatial::record::OPEN;
 use outcome::Warning;
@@ -59,7 +59,7 @@ impl Rows<'_> {
     }
 }
 
-pub(super) fn of(asked: &Asked, rows: &Rows<'_>) -> Vec<Warning> {
+pub(super) fn of(asked: &Request, rows: &Rows<'_>) -> Vec<Warning> {
     let mut list: Vec<Warning> = Vec::new();
     let loaded = || rows.all().filter(|ball| ball.loads[0] > 0.0);
     let largest = |value: fn(&Ball) -> f64| loaded().map(value).fold(0.0, f64::max);

@@ -9,29 +9,29 @@
 //!
 //! Not modelled: balls that skid (then neither race feels these moments), a radial load shared unevenly by balls.
 
-pub(crate) mod asked;
 pub(crate) mod quantities;
+pub(crate) mod request;
 pub mod warnings;
 
-pub use crate::torque::asked::Asked;
-use crate::torque::asked::{law_of, name_of};
+pub use crate::torque::request::Request;
+use crate::torque::request::{law_of, name_of};
 use outcome::columns::{Columns, columns};
 use outcome::{Column, Outcome, Picture, Quantity, Stop};
 
 use scenario::Scenario;
 
 /// The columns of its history, without values.
-pub fn columns(asked: &Asked) -> Vec<Column> {
+pub fn columns(asked: &Request) -> Vec<Column> {
     history(asked, &[])
 }
 
 /// The results of such a computation, without values.
-pub fn results(asked: &Asked) -> Vec<Quantity> {
+pub fn results(asked: &Request) -> Vec<Quantity> {
     quantities::name(asked, None)
 }
 
 /// Computes the moments and names them.
-pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
+pub fn run(scenario: &Scenario, asked: &Request) -> Outcome {
     let torque = asked.torque;
     let history = history(asked, &asked.speeds());
     let quantities = quantities::name(asked, Some(asked));
@@ -55,7 +55,7 @@ pub fn run(scenario: &Scenario, asked: &Asked) -> Outcome {
 }
 
 /// The curves over these speeds, which are the first column.
-fn history(asked: &Asked, speeds: &[f64]) -> Vec<Column> {
+fn history(asked: &Request, speeds: &[f64]) -> Vec<Column> {
     let torque = asked.torque;
     let load = asked.load();
     let steady = |speed: &f64| asked.moments(*speed, 0.0).friction;

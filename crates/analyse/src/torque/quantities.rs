@@ -1,6 +1,6 @@
 //! Every named result of a torque computation with its law, source and valid range.
 
-use crate::torque::asked::{Asked, Moments, law_of};
+use crate::torque::request::{Moments, Request, law_of};
 use outcome::list::{List, origins, results};
 use outcome::{Quantity, Value};
 use physics::friction::{Friction, MomentParts};
@@ -8,7 +8,7 @@ use scenario::Lubricant;
 use simulate::static_safety::{AT_THE_LOAD, StaticLoad, static_safety};
 
 /// Names the results; without a second argument those of any computation.
-pub(crate) fn name(asked: &Asked, after: Option<&Asked>) -> Vec<Quantity> {
+pub(crate) fn name(asked: &Request, after: Option<&Request>) -> Vec<Quantity> {
     let torque = asked.torque;
     let mut list = List::default();
     steady(&mut list, asked, after);
@@ -34,7 +34,7 @@ pub(crate) fn name(asked: &Asked, after: Option<&Asked>) -> Vec<Quantity> {
 }
 
 results! {
-    fn steady(asked: &Asked, run: &Asked) {
+    fn steady(asked: &Request, run: &Request) {
         "speed": number "rad/s", GIVEN, "speed of the inner race" in place "rad/s" => run.torque.speed;
         "radial_load": number "N", GIVEN, "radial load" in place "N" => run.load();
         "viscosity": number "m^2/s", VISCOSITY, "kinematic viscosity of the oil" in place "mm^2/s" => {
@@ -65,7 +65,7 @@ results! {
 }
 
 results! {
-    fn over_acceleration(asked: &Asked, run: &Asked) {
+    fn over_acceleration(asked: &Request, run: &Request) {
         "accelerations": list "rad/s^2", GIVEN, "accelerations of the inner race" in by_acceleration "acceleration" => run.torque.accelerations.clone();
         "inner_race_inertia_moments": list "N m", INNER_INERTIA, "inertia of balls and cage at the inner race" in by_acceleration "inertia, inner" => run.accelerated(|m| m.inner_inertia);
         "outer_race_inertia_moments": list "N m", OUTER_INERTIA, "inertia of balls and cage at the outer race" in by_acceleration "inertia, outer" => run.accelerated(|m| m.outer_inertia);
@@ -76,7 +76,7 @@ results! {
 }
 
 results! {
-    fn over_load(asked: &Asked, run: &Asked) {
+    fn over_load(asked: &Request, run: &Request) {
         "loads": list "N", GIVEN, "radial loads" in by_load "load" => run.torque.loads.clone();
         "load_dependent_moments_over_load": list "N m", FRICTION, "load-dependent part M1 under each load" in by_load "M1" => run.loaded(|parts| parts.load_dependent);
         "friction_moments_over_load": list "N m", FRICTION, "steady moment M under each load" in by_load "M" => run.loaded(|parts| parts.sum());
@@ -106,7 +106,7 @@ results! {
     }
 }
 
-impl Asked<'_> {
+impl Request<'_> {
     fn steady(&self) -> MomentParts<f64> {
         self.friction(&self.law, self.torque.speed, self.load())
     }
@@ -126,7 +126,7 @@ impl Asked<'_> {
 
 /// A bearing with another lubricant.
 struct Lubricated<'a> {
-    asked: &'a Asked<'a>,
+    asked: &'a Request<'a>,
     lubricant: &'a Lubricant,
 }
 

@@ -1,6 +1,6 @@
 //! What the user should know before trusting the moments of a bearing.
 
-use crate::torque::asked::{Asked, law_of};
+use crate::torque::request::{Request, law_of};
 use outcome::Warning;
 use physics::friction::Friction;
 use physics::friction_range::{OperatingPoint, farthest};
@@ -16,7 +16,7 @@ problem::warnings! {
 }
 
 /// All warnings, the most severe first.
-pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
+pub(crate) fn of(scenario: &Scenario, asked: &Request) -> Vec<Warning> {
     let torque = asked.torque;
     let mut list = Vec::new();
     if torque.moment == Moment::None {
@@ -81,7 +81,7 @@ pub(crate) fn of(scenario: &Scenario, asked: &Asked) -> Vec<Warning> {
 }
 
 /// Where a law is left between the least and the largest speed and load: each quantity once.
-fn departures(asked: &Asked, law: &Friction<f64>, which: &str) -> Vec<Warning> {
+fn departures(asked: &Request, law: &Friction<f64>, which: &str) -> Vec<Warning> {
     let torque = asked.torque;
     let speeds = [torque.speed_to, torque.speed, torque.speed_from];
     let points = torque.loads.iter().flat_map(|&radial_load| {

@@ -69,7 +69,7 @@ const RESOLVED: f64 = 0.1;
 const FINEST: f64 = 3e-4;
 
 /// A flank whose steepness shows.
-struct Seen {
+struct SteepFlank {
     /// Samples to the next flank.
     interval: f64,
     /// Slope per sample.
@@ -92,8 +92,10 @@ impl Shape {
         seen.sort_by(|a, b| a.interval.total_cmp(&b.interval));
         let third = seen.len() / 3;
         let (quick, slow) = (&seen[..third], &seen[seen.len() - third..]);
-        let usual = |part: &[Seen], value: &dyn Fn(&Seen) -> f64| median(part.iter().map(value));
-        let same = |value: &dyn Fn(&Seen) -> f64| {
+        let usual = |part: &[SteepFlank], value: &dyn Fn(&SteepFlank) -> f64| {
+            median(part.iter().map(value))
+        };
+        let same = |value: &dyn Fn(&SteepFlank) -> f64| {
             (SAME.recip()..SAME).contains(&(usual(quick, value) / usual(slow, value)))
         };
         if same(&|s| s.slope * s.interval) {
@@ -111,7 +113,7 @@ impl Shape {
     }
 }
 
-fn steepness(samples: &[f64], own: &[&Passing], levels: &Levels) -> Vec<Seen> {
+fn steepness(samples: &[f64], own: &[&Passing], levels: &Levels) -> Vec<SteepFlank> {
     own.windows(2)
         .filter_map(|pair| {
             let (place, interval) = (pair[0].place, pair[1].place - pair[0].place);
@@ -122,7 +124,7 @@ fn steepness(samples: &[f64], own: &[&Passing], levels: &Levels) -> Vec<Seen> {
                 Some(a + (b - a) * place.fract())
             };
             let slope = (at(place + reach)? - at(place - reach)?).abs() / (2.0 * reach);
-            (slope > 0.0 && levels.span / slope > SHOWN).then(|| Seen {
+            (slope > 0.0 && levels.span / slope > SHOWN).then(|| SteepFlank {
                 interval,
                 slope,
                 height: levels.envelope().map_or(1.0, |e| e.at(place as usize).1),

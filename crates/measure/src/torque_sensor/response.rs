@@ -31,7 +31,7 @@ pub struct FreeResponse {
 }
 
 /// A swing fitted to the values from a start on.
-struct Found {
+struct FittedSwing {
     start: usize,
     point: [f64; 2],
     fit: Fit,
@@ -39,8 +39,8 @@ struct Found {
     count: usize,
 }
 
-impl Found {
-    fn of(reading: &[f64], interval: f64, start: usize) -> Result<Found, String> {
+impl FittedSwing {
+    fn of(reading: &[f64], interval: f64, start: usize) -> Result<FittedSwing, String> {
         let values = reading.get(start..).unwrap_or(&[]);
         let count = values.iter().filter(|v| v.is_finite()).count();
         if count < 32 {
@@ -51,7 +51,7 @@ impl Found {
         let data = Data { values, interval };
         let (point, noise) = data.search()?;
         let fit = fitted(&data, &point)?;
-        Ok(Found {
+        Ok(FittedSwing {
             start,
             point,
             fit,
@@ -107,14 +107,14 @@ pub fn identify_free_response(
     let mut notes = Vec::new();
     let rest = rest_end(reading);
     let mut found = match start {
-        Some(start) => Found::of(reading, interval, start)?,
+        Some(start) => FittedSwing::of(reading, interval, start)?,
         None => {
             let begin = begin(reading, rest);
-            let first = Found::of(reading, interval, begin)?;
+            let first = FittedSwing::of(reading, interval, begin)?;
             let next = (first.leaves_more())
                 .then(|| next_extreme(reading, begin))
                 .flatten()
-                .and_then(|next| Found::of(reading, interval, next).ok());
+                .and_then(|next| FittedSwing::of(reading, interval, next).ok());
             match next {
                 Some(next) if next.left() < BETTER * first.left() => next,
                 _ => first,
@@ -134,7 +134,7 @@ pub fn identify_free_response(
         found.amplitude(),
     ) {
         let until = found.start + event;
-        if let Ok(shorter) = Found::of(&reading[..until], interval, found.start) {
+        if let Ok(shorter) = FittedSwing::of(&reading[..until], interval, found.start) {
             notes.push(format!(
                 "a second tap or step follows {:.3} s after the first: the record from there on is not used",
                 event as f64 * interval
@@ -193,7 +193,7 @@ pub fn identify_free_response(
 }
 
 /// What a swing that was found is too weak for.
-fn weak(found: &Found, length: f64) -> Vec<String> {
+fn weak(found: &FittedSwing, length: f64) -> Vec<String> {
     let (frequency, damping) = (found.point[0].exp(), damping_of(found.point[1]));
     let share = 100.0 * found.left() / found.amplitude();
     let mut notes = Vec::new();
@@ -228,7 +228,7 @@ fn take_lines_out(
     raw: &[f64],
     clean: &mut Vec<f64>,
     interval: f64,
-    found: &mut Found,
+    found: &mut FittedSwing,
 ) -> Result<Vec<Line>, String> {
     let mut lines: Vec<Line> = Vec::new();
     while lines.len() < LINES {

@@ -43,7 +43,7 @@ pub struct Flash {
 
 /// What one race has seen.
 #[derive(Clone, Debug, PartialEq)]
-pub struct RaceSeen {
+pub struct RaceInstant {
     /// Σ Q³ at each of its points, N³, of one row of balls after the other.
     pub sums: Vec<f64>,
     /// How often the load of a ball rose above the one that dents.
@@ -58,7 +58,7 @@ pub struct RaceSeen {
 #[derive(Clone, Debug, PartialEq)]
 pub struct RaceRecord {
     /// Inner and outer race.
-    pub races: [RaceSeen; 2],
+    pub races: [RaceInstant; 2],
     /// Balls of each row.
     rows: Vec<usize>,
     /// Angle from each race, in points, and load of each ball at the last look.
@@ -70,7 +70,7 @@ pub struct RaceRecord {
 }
 
 /// A bearing at an instant.
-pub struct Seen<'a> {
+pub struct BearingInstant<'a> {
     /// The bearing.
     pub bearing: &'a BearingConstants,
     /// s.
@@ -84,7 +84,7 @@ pub struct Seen<'a> {
 impl RaceRecord {
     /// An empty record of a bearing with so many balls in each of its rows, whose shaft has a speed, rad/s.
     pub fn new(rows: &[usize], speed: f64) -> Self {
-        let race = RaceSeen {
+        let race = RaceInstant {
             sums: vec![0.0; POINTS * rows.len()],
             dents: 0,
             flash: Flash {
@@ -148,7 +148,7 @@ impl RaceRecord {
     }
 
     /// Looks at the balls.
-    pub fn look(&mut self, seen: &Seen) {
+    pub fn look(&mut self, seen: &BearingInstant) {
         let first = self.last.is_empty();
         let races = [&seen.motion.inner, &seen.motion.outer].map(|race| race.angle);
         let (motion, state) = (&seen.motion, seen.state);
@@ -170,7 +170,12 @@ impl RaceRecord {
         });
     }
 
-    fn dents_and_flashes(&mut self, seen: &Seen, ball: usize, contacts: &[SlidingContact<f64>; 2]) {
+    fn dents_and_flashes(
+        &mut self,
+        seen: &BearingInstant,
+        ball: usize,
+        contacts: &[SlidingContact<f64>; 2],
+    ) {
         let Some(laws) = seen.bearing.race_laws() else {
             return;
         };
@@ -203,7 +208,7 @@ impl RaceRecord {
     }
 }
 
-impl RaceSeen {
+impl RaceInstant {
     /// A ball whose row has its points from the first on goes from one place, in points, to another, with these loads.
     fn pass(&mut self, first: usize, from: (f64, f64), to: (f64, f64)) {
         if from.1 <= 0.0 && to.1 <= 0.0 {

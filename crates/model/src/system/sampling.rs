@@ -51,6 +51,37 @@ impl Growth {
     }
 }
 
+/// Turns about a centre, counter-clockwise positive.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Turns {
+    /// All of them, those in the other sense subtracted.
+    pub net: f64,
+    lowest: f64,
+    highest: f64,
+    /// The most in succession counter-clockwise, and clockwise.
+    pub most: [f64; 2],
+}
+
+impl Turns {
+    /// Takes a part of a turn.
+    pub fn add(&mut self, turn: f64) {
+        self.net += turn;
+        self.lowest = self.lowest.min(self.net);
+        self.highest = self.highest.max(self.net);
+        let now = [self.net - self.lowest, self.highest - self.net];
+        self.most = [0, 1].map(|sense| self.most[sense].max(now[sense]));
+    }
+    /// The most in succession in the sense of a spin, and against it.
+    pub fn about(&self, spin: f64) -> [f64; 2] {
+        let [left, right] = self.most;
+        if spin < 0.0 {
+            [right, left]
+        } else {
+            [left, right]
+        }
+    }
+}
+
 /// Means of some probes over equal periods that end with the run, by trapezoids over the steps; and the range of a channel
 /// in each. Room is made before the run.
 #[derive(Clone, Debug, PartialEq)]

@@ -117,10 +117,10 @@ function whirlTile(run) {
   const quantity = quantityOf(run, "whirl_direction");
   if (typeof quantity.value !== "string") return tile("Whirl", "–", ["not in this run: " + (quantity.why || "no reason given")]);
   const turns = quantityOf(run, "whirl_turns");
-  const spin = Math.sign(numberOf(run, "rotor_final_speed")) || 1;
-  const sense = turns.value * spin < 0 ? "backward" : "forward";
-  const count = isNumber(turns.value) ? `${numberText(Math.abs(turns.value), 3)} net turns, ${sense}, in the inner race` : null;
-  const back = worstOf(turns, (value) => -value * spin);
+  const against = quantityOf(run, "backward_whirl_turns");
+  const sense = Math.abs(turns.value) === against.value ? "backward" : "forward";
+  const count = isNumber(turns.value) ? `${numberText(Math.abs(turns.value), 3)} turns in succession, ${sense}, in the inner race` : null;
+  const back = isNumber(against.value) ? worstOf(against, (value) => value) : 0;
   const bad = quantity.value === "backward" || back >= 1;
   const unknown = bad ? [] : whirlNotSought(run);
   const rule = quantity.value === "none" && !unknown.length && !bad ? "below one turn there is no whirl" : null;

@@ -19,7 +19,7 @@ use statistics::uncertain::Uncertain;
 use std::array::from_fn;
 use std::f64::consts::TAU;
 
-type Found = Result<Uncertain, String>;
+type Feature = Result<Uncertain, String>;
 
 /// Share of the predicted range that a threshold is at least.
 const THRESHOLD: f64 = 0.02;
@@ -43,12 +43,12 @@ const SHOWN: f64 = 3.0;
 const LATE: &str = "the file begins after the release";
 const AT_GAP: &str = "the channel has a gap at the release";
 
-fn no(why: &str) -> Found {
+fn no(why: &str) -> Feature {
     Err(why.to_string())
 }
 
 /// Features of the measured and of the predicted curve, and whether the noise of the former is known.
-type Both<const N: usize> = ([[Found; N]; 2], bool);
+type Both<const N: usize> = ([[Feature; N]; 2], bool);
 
 /// A table of features.
 type Table<const N: usize> = fn(&mut List, &(), Option<&[Result<f64, String>; N]>);
@@ -57,8 +57,8 @@ type Table<const N: usize> = fn(&mut List, &(), Option<&[Result<f64, String>; N]
 fn sides<const N: usize>(list: &mut List, name: &str, table: Table<N>, both: Option<Both<N>>) {
     let sides = both.map(|([measured, predicted], known)| {
         let difference = from_fn(|k| Ok(measured[k].clone()?.minus(predicted[k].clone()?)));
-        let value = |of: &[Found; N]| from_fn(|k| of[k].clone().map(|own| own.value));
-        let spread = |of: &[Found; N]| {
+        let value = |of: &[Feature; N]| from_fn(|k| of[k].clone().map(|own| own.value));
+        let spread = |of: &[Feature; N]| {
             let known = known.then_some(()).ok_or(NO_DEVIATION);
             from_fn(|k| {
                 of[k]
@@ -100,7 +100,7 @@ impl Compared {
     /// Features of the measured curve, with the mean before the release, and of the predicted one, without noise; of both up to the first gap.
     fn both<const N: usize>(
         &self,
-        of: impl Fn(Samples, Option<Uncertain>) -> [Found; N],
+        of: impl Fn(Samples, Option<Uncertain>) -> [Feature; N],
     ) -> Both<N> {
         let Before { mean, noise, .. } = &self.before;
         let own = noise.clone().unwrap_or_default();
@@ -175,7 +175,7 @@ fn first(times: &[f64]) -> usize {
 }
 
 /// Time to 95 % of a speed; without a rotor of the largest predicted one.
-fn spin_up(own: &Compared, samples: Samples, spin: f64) -> Found {
+fn spin_up(own: &Compared, samples: Samples, spin: f64) -> Feature {
     let sizes = |values: &[f64]| values.iter().map(|own| own.abs()).collect::<Vec<f64>>();
     let full = match spin {
         0.0 => sizes(&own.predicted).into_iter().fold(0.0, f64::max),
@@ -189,7 +189,7 @@ fn spin_up(own: &Compared, samples: Samples, spin: f64) -> Found {
 }
 
 /// First contact, its duration and impulse, and the peak of a force above its mean before the release.
-fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 4] {
+fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Feature; 4] {
     let first = first(samples.times);
     let level = (THRESHOLD * own.range()).max(CONTACT_NOISE * own.deviation().unwrap_or(0.0));
     let alone = Uncertain::new(samples.values[first], samples.noise.deviation);
@@ -237,7 +237,7 @@ fn impact(own: &Compared, samples: Samples, mean: Option<Uncertain>) -> [Found; 
 }
 
 /// Instant of the first reversal of a displacement, and how far it comes back until the next.
-fn turning(own: &Compared, samples: Samples) -> [Found; 2] {
+fn turning(own: &Compared, samples: Samples) -> [Feature; 2] {
     let first = first(samples.times);
     let rows = reversals(&samples.values[first..], own.threshold());
     let found = |k: usize| {
@@ -380,7 +380,7 @@ impl Orbit<'_> {
     }
 
     /// Phases at the release, rad: of the measured orbit before it and of the run there.
-    fn phases(&self, run: &Run) -> [Found; 2] {
+    fn phases(&self, run: &Run) -> [Feature; 2] {
         let measured = self.orbit(run).map(|own| own.map(|own| own[0]));
         let predicted =
             ["x", "y"].map(|axis| run.at(&format!("{}.{axis}", self.place), run.release));
@@ -474,7 +474,7 @@ impl Orbit<'_> {
 
 /// Net angle about the line of levitation over the time of the stretches outside a radius that go round once at least, which bounces do not; of
 /// each stretch the noise of both ends is left. Samples further apart than the longest interval end a stretch.
-pub(super) fn whirl(radii: Samples, points: &[[f64; 2]], radius: f64, longest: f64) -> Found {
+pub(super) fn whirl(radii: Samples, points: &[[f64; 2]], radius: f64, longest: f64) -> Feature {
     let (mut angle, mut time, mut rows, mut ends) = (0.0_f64, 0.0, 0, 0.0);
     let step = |row: usize| radii.times[row + 1] - radii.times[row];
     let is_outside = |row: usize| radii.values[row] >= radius;

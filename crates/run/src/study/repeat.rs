@@ -11,7 +11,7 @@ use problem::{Place, Problem, Result};
 use scenario::{Scenario, Variations};
 use simulate::bearing::LIFE_BY_POINT;
 use simulate::drop::Drop;
-use simulate::drop::build::{self, Built};
+use simulate::drop::build::{self, DropModel};
 use simulate::drop::each::{self, One, numbers};
 use simulate::ending::interrupted;
 use std::collections::BTreeMap;
@@ -28,13 +28,13 @@ const MACHINES: u64 = 0x5851_f42d_4c95_7f2d;
 /// What a member draws: paths with their values.
 type Drawn = Vec<(String, String)>;
 /// The file and the machine of a member whose machine differs from the one given.
-pub(crate) type Other = (Scenario, Arc<Built>);
+pub(crate) type Member = (Scenario, Arc<DropModel>);
 
 /// Members 1, 2, … whose machines differ, the first 512 of them.
 ///
 /// # Errors
 /// What is wrong with the first of these that cannot be built.
-pub(crate) fn others(scenario: &Scenario, drop: &Drop) -> Result<Vec<Arc<Other>>> {
+pub(crate) fn others(scenario: &Scenario, drop: &Drop) -> Result<Vec<Arc<Member>>> {
     if scenario.vary.is_empty() {
         return Ok(Vec::new());
     }
@@ -72,7 +72,7 @@ fn draw(scenario: &Scenario, drop: &Drop, k: usize) -> Drawn {
 }
 
 /// A member of a machine of its own.
-fn member(of: &Variations, drawn: &Drawn, k: usize) -> Result<Arc<Other>> {
+fn member(of: &Variations, drawn: &Drawn, k: usize) -> Result<Arc<Member>> {
     let blame = |problem| member_problem(k, drawn, problem);
     let member = of.with(drawn).map_err(blame)?;
     let Some(of) = member.drop() else {
@@ -96,8 +96,8 @@ fn member_problem(k: usize, drawn: &Drawn, mut problem: Box<Problem>) -> Box<Pro
 /// Runs a drop, as often as it asks; `known` are those of its [`others`] that have been read.
 pub(crate) fn run(
     scenario: &Scenario,
-    built: &Arc<Built>,
-    known: &[Arc<Other>],
+    built: &Arc<DropModel>,
+    known: &[Arc<Member>],
     options: &Options,
 ) -> Outcome {
     let made = in_pool(options.threads, || {
@@ -114,7 +114,7 @@ pub(crate) fn run(
 }
 
 /// Runs the members, part by part.
-fn repeated(given: &One, known: &[Arc<Other>], options: &Options) -> Repetition {
+fn repeated(given: &One, known: &[Arc<Member>], options: &Options) -> Repetition {
     let (scenario, drop) = (given.scenario, &given.built.drop);
     let count = count(drop);
     let variations = scenario.variations();

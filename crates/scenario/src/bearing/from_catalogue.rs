@@ -8,7 +8,7 @@ use crate::values::{Known, Value, Values};
 use catalogue::Catalogue;
 use catalogue::designation::{self, Designation};
 use problem::provenance::Provenance;
-use problem::raw::{Given, Raw};
+use problem::raw::{Input, Raw};
 use problem::value::quantity_text;
 use problem::{Code, Place, Result, did_you_mean};
 use std::path::{Path, PathBuf};
@@ -196,7 +196,7 @@ impl Values {
         else {
             return Ok(None);
         };
-        let given = Given {
+        let given = Input {
             raw: Raw::Text(word.clone()),
             typed: None,
             place: Place::Whole,

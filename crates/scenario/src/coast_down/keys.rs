@@ -15,7 +15,7 @@ pub(crate) const SECTIONS: &[Section] = &[Section::new("coast_down", "The coast-
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
     Key::new("coast_down.radial_load", Kind::Quantity("N"), "39 N", "Radial force of the rotor on each bearing; rows that planes counts in [[auxiliary_bearing]] share it equally.")
-        .positive().derived("weight of rotor.mass over the number of bearings, 9.80665 m/s²").only(COAST_DOWN),
+        .positive().derived("weight of rotor.mass over the number of all rows, times its rows, 9.80665 m/s²").only(COAST_DOWN),
     Key::new("coast_down.stop_speed", Kind::Quantity("rad/s"), "1 rad/s", "Speed at which the coast-down ends. Below about 1 rad/s the friction laws fade; above it the rotor does not stand yet.")
         .positive().when(UNTIL_STANDSTILL).default("1 rad/s", "what is left there stops within seconds"),
     Key::new("coast_down.longest", Kind::Quantity("s"), "10 h", "Time after which the run is ended, standing or not.")

@@ -2,6 +2,7 @@
 
 use crate::bearing::fits::{Fits, HOUSING_FIT};
 use crate::heat::{Atmosphere, HOUSING_SIZE};
+use crate::several::PLANES;
 use crate::spin_up::DriveKind;
 use crate::system::{COAST_DOWN, ON_RIG};
 use crate::values::{Value, Values};
@@ -35,12 +36,13 @@ impl Values {
     /// Fills what follows from weight and geometry.
     pub fn warm(&mut self) -> Done {
         if let Some(mass) = self.number("rotor.mass") {
+            let share = mass / self.rows;
             if self.is_in(COAST_DOWN) {
-                let how = "mass / number of bearings times 9.80665 m/s²";
-                let load = mass / self.bearings * GRAVITY;
-                self.fill("coast_down.radial_load", load, how)?;
+                let how = "mass / number of all rows, times its rows, times 9.80665 m/s²";
+                let own = self.number(PLANES).unwrap_or(1.0) * share;
+                self.fill("coast_down.radial_load", own * GRAVITY, how)?;
             }
-            let capacity = mass / self.rows * STEEL_HEAT.specific_heat;
+            let capacity = share * STEEL_HEAT.specific_heat;
             let how = "mass / number of rows times 460 J/(kg K): all of the rotor";
             self.fill("heat.rotor_capacity", capacity, how)?;
         }

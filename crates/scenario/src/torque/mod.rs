@@ -13,7 +13,7 @@ use crate::document::Document;
 use crate::section::Section;
 use crate::values::{COMPARED_LAWS, LAW, Values};
 use physics::viscosity::Viscosity;
-use problem::raw::{Given, Raw};
+use problem::raw::{Input, Raw};
 use problem::{Code, Place, Result};
 
 /// A bearing whose torque is computed without motion. All values are SI.
@@ -194,7 +194,7 @@ fn moment_by(
     let mut set = |path, raw| {
         document.values.insert(
             path,
-            Given {
+            Input {
                 raw,
                 typed: None,
                 place: Place::Whole,

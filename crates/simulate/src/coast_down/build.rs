@@ -70,7 +70,7 @@ impl Part {
 
 /// The machine of a coast-down.
 #[derive(Clone, Debug)]
-pub struct Built {
+pub struct CoastDownModel {
     /// Bearings that differ, each with the number of those that are equal to it.
     pub(crate) parts: Vec<Part>,
     /// What turns, kg m².
@@ -230,7 +230,7 @@ pub(crate) fn hold(
     powers
 }
 
-impl Built {
+impl CoastDownModel {
     /// Whether laws know the losses of all its bearings.
     pub(crate) fn by_laws(&self) -> bool {
         self.parts.iter().all(|part| part.by_laws)
@@ -303,7 +303,7 @@ impl Built {
 }
 
 /// Builds a coast-down by itself.
-pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
+pub fn alone(run: &CoastDown) -> Result<CoastDownModel, Box<Problem>> {
     let of = |own: &CoastingBearing| {
         let mut part = part(&own.warm, own.name.clone(), own.planes)?;
         let heat = &part.warm.heat;
@@ -316,7 +316,7 @@ pub fn alone(run: &CoastDown) -> Result<Built, Box<Problem>> {
         .iter()
         .map(|part| part.warm.heat.start_temperature - ICE_POINT);
     let start: Vec<f64> = starts.flat_map(|start| [start; NODES.len()]).collect();
-    Ok(Built {
+    Ok(CoastDownModel {
         inertia: run.polar_inertia,
         rotor: RotorDrag {
             drag_square: run.windage,

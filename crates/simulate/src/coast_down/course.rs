@@ -1,6 +1,6 @@
 //! A coast-down step by step, and the same with nodes that are held at their limits.
 
-use crate::coast_down::build::{Built, ICE_POINT, Part, hold};
+use crate::coast_down::build::{CoastDownModel, ICE_POINT, Part, hold};
 use crate::coast_down::rows::{End, Row, RowOfBearing};
 use problem::Problem;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -38,7 +38,7 @@ pub(crate) struct Course {
 
 /// Follows it; with limits the nodes are held at them from the moment they get there.
 pub(super) fn follow(
-    built: &Built,
+    built: &CoastDownModel,
     limits: Option<&[Option<f64>]>,
     interrupt: &AtomicBool,
 ) -> Result<Course, Box<Problem>> {
@@ -146,7 +146,7 @@ pub(super) fn follow(
 }
 
 /// Why a coast-down ends at temperatures of the nodes of all bearings, °C, that no law of it knows.
-fn left(built: &Built, temperatures: &[f64]) -> Option<End> {
+fn left(built: &CoastDownModel, temperatures: &[f64]) -> Option<End> {
     if !temperatures.iter().all(|now| now.abs() < BEYOND) {
         return Some(End::Beyond);
     }
@@ -204,27 +204,27 @@ fn clearance(part: &Part, speed: f64, temperatures: &[f64]) -> f64 {
 }
 
 /// Speed of an inner race at a speed of the rotor, rad/s: a race that slides turns slower, and its bearing is stirred and cooled less.
-fn race(built: &Built, speed: f64, bearing: usize) -> f64 {
+fn race(built: &CoastDownModel, speed: f64, bearing: usize) -> f64 {
     let motion = built.motion.as_ref();
     let spin = motion.map_or(1.0, |motion| motion.between.spin(speed, bearing));
     built.parts[bearing].losses.ratio * speed * spin
 }
 
 /// How the rotor lies in a bearing at a speed of the rotor: it rolls under its load where its motion was not followed.
-fn landing(built: &Built, speed: f64, bearing: usize) -> Landing {
+fn landing(built: &CoastDownModel, speed: f64, bearing: usize) -> Landing {
     let rolls = || Landing::rolls(built.parts[bearing].zone.load);
     let motion = built.motion.as_ref();
     motion.map_or_else(rolls, |motion| motion.between.landing(speed, bearing))
 }
 
 /// The networks of all bearings at a speed of the rotor, rad/s, and at temperatures of their nodes, °C; marked nodes are held.
-fn network(built: &Built, at: (f64, &[f64]), held: &[bool]) -> Result<Network, String> {
+fn network(built: &CoastDownModel, at: (f64, &[f64]), held: &[bool]) -> Result<Network, String> {
     operating(built, at, |all| together(all, held))
 }
 
 /// What all bearings do at a speed of the rotor, rad/s, and at temperatures of their nodes, °C.
 fn operating<T>(
-    built: &Built,
+    built: &CoastDownModel,
     at: (f64, &[f64]),
     act: impl FnOnce(&[(&BearingNetwork, Operation<'_>)]) -> T,
 ) -> T {
@@ -233,7 +233,7 @@ fn operating<T>(
 
 /// The same with a rotor that lies in them in a given way.
 fn lying<T>(
-    built: &Built,
+    built: &CoastDownModel,
     (speed, temperatures): (f64, &[f64]),
     landing: &dyn Fn(usize) -> Landing,
     act: impl FnOnce(&[(&BearingNetwork, Operation<'_>)]) -> T,
@@ -275,7 +275,7 @@ fn no_network(why: String) -> Box<Problem> {
     problem_at(Code::Impossible, "heat", why, needed)
 }
 
-fn row(built: &Built, state: &Coasting, taken: &[f64]) -> Row {
+fn row(built: &CoastDownModel, state: &Coasting, taken: &[f64]) -> Row {
     let losses = built.losses(state.time, state.speed);
     let mut all = vec![0.0; losses.count()];
     losses.moments(state.speed, &state.temperatures, &mut all);

@@ -12,11 +12,11 @@ pub(crate) mod course;
 pub(crate) mod measured;
 pub(crate) mod passages;
 pub(crate) mod quantities;
-pub(crate) mod ran;
 pub(crate) mod rows;
+pub(crate) mod run;
 pub mod warnings;
 
-use crate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::coast_down::build::{CoastDownModel, ICE_POINT, Part};
 use crate::coast_down::course::{BEYOND, Course};
 use crate::coast_down::rows::{End, Row};
 use model::system::layout::of_part;
@@ -29,20 +29,25 @@ use scenario::{CoastDown, Scenario};
 use thermal::coast_down::Endless;
 
 /// The results of a coast-down, without values.
-pub fn results(built: &Built) -> Vec<Quantity> {
+pub fn results(built: &CoastDownModel) -> Vec<Quantity> {
     let mut list = List::default();
     quantities::name(&mut list, &built.parts, None);
     list.quantities
 }
 
 /// The columns of its history, without values.
-pub fn columns(built: &Built) -> Vec<Column> {
+pub fn columns(built: &CoastDownModel) -> Vec<Column> {
     history(&built.parts, &[])
 }
 
 /// Computes it and names what it finds.
-pub fn run(scenario: &Scenario, run: &CoastDown, built: &Built, options: &Options) -> Outcome {
-    let found = ran::ran(built, options.interrupt);
+pub fn run(
+    scenario: &Scenario,
+    run: &CoastDown,
+    built: &CoastDownModel,
+    options: &Options,
+) -> Outcome {
+    let found = run::run(built, options.interrupt);
     let names = run.bearings.iter();
     let mut names: Vec<_> =
         (names.map(|own| own.warm.name.as_deref().unwrap_or("bearing"))).collect();

@@ -8,8 +8,8 @@ use crate::bearing::warm::{
 use crate::coast_down::build::{ICE_POINT, Part, turns};
 use crate::coast_down::course::Course;
 use crate::coast_down::passages::limits;
-use crate::coast_down::ran::{NodeOf, Ran};
 use crate::coast_down::rows::{BallsSeen, End, Row, RowOfBearing};
+use crate::coast_down::run::{CoastDownRun, NodeOf};
 use outcome::list::results;
 use outcome::list::{List, not_given, origins, relative};
 use physics::life::{RatedBearing, add_points, passages_per_turn};
@@ -22,7 +22,7 @@ use thermal::warm_machine::{OF_BEARING, by_kind};
 const PLACES: usize = 180;
 
 /// Names the results of a coast-down on these bearings; without a run those of any.
-pub(crate) fn name(list: &mut List, parts: &[Part], run: Option<&Ran>) {
+pub(crate) fn name(list: &mut List, parts: &[Part], run: Option<&CoastDownRun>) {
     motion(list, &(), run);
     for (k, part) in parts.iter().enumerate() {
         list.of_part(&part.name, |list| heats(list, part, k, run));
@@ -51,7 +51,7 @@ pub(crate) fn name(list: &mut List, parts: &[Part], run: Option<&Ran>) {
     }
 }
 
-fn heats(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
+fn heats(list: &mut List, part: &Part, k: usize, run: Option<&CoastDownRun>) {
     for node in part.nodes(k) {
         let heats = run.map(|run| run.heats(part, node));
         list.named(&[node.name()], |list| {
@@ -62,7 +62,7 @@ fn heats(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
     list.each_found(run.map(|run| run.heats_by_node(k)), heat_by_node);
 }
 
-fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
+fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&CoastDownRun>) {
     for node in part.nodes(k) {
         let peak = run.map(|run| run.peak(node));
         list.named(&[node.name()], |list| {
@@ -79,7 +79,7 @@ fn temperatures(list: &mut List, part: &Part, k: usize, run: Option<&Ran>) {
 }
 
 results! {
-    fn motion(setup: &(), run: &Ran) {
+    fn motion(setup: &(), run: &CoastDownRun) {
         "stop_time": instant "s" headline, STOP, "time until the rotor stands" in machine_tile "Stands after" => match run.free.end {
             End::Stands => Ok(run.free.state.time),
             End::Reached => Err("the run ends at coast_down.stop_speed, where the rotor still turns".to_string()),
@@ -97,7 +97,7 @@ results! {
         "windage_heat": number "J", HEAT, "heat of the gas and of what else brakes the rotor" => by_kind(&run.free.state.heats)[2];
         "stored_heat": number "J", HEAT, "heat stored in all bodies" in heat_balance "stored" => run.free.stored;
     }
-    fn balance(setup: &(), run: &Ran) {
+    fn balance(setup: &(), run: &CoastDownRun) {
         "heat_to_surroundings": number "J", HEAT, "heat given to the surroundings" in heat_balance "to the surroundings" => run.free.state.given;
         "relative_heat_residual": number "1" headline, RESIDUAL, "residual of the heat balance over the heat made" in machine_tile "Heat residual" in bound "1e-9" => {
             let [speed_dependent, load_dependent, _] = by_kind(&run.free.state.heats);
@@ -109,7 +109,7 @@ results! {
         "peak_*_temperature": number "K" headline, PEAK, "highest temperature of this body" => peak.0 + ICE_POINT;
         "peak_*_time": number "s", PEAK, "instant of this temperature" => peak.1;
     }
-    fn clearance(of: &(usize, &Part), run: &Ran) {
+    fn clearance(of: &(usize, &Part), run: &CoastDownRun) {
         "smallest_clearance": number "m" headline, CLEARANCE, "smallest diametral clearance", unless at_angle(of.1) => run.rows(of.0).map(|row| row.clearance).fold(f64::INFINITY, f64::min);
         "closing_time": instant "s" headline, CLEARANCE, "first time without clearance" in instants "clearance closed", unless at_angle(of.1) => {
             let closes = run.first(|row| -row.bearings[of.0].clearance);
@@ -120,12 +120,12 @@ results! {
             indentation_index(run.most(of.0, |row| row.largest_pressure), of.1.pressure_limit)
         };
     }
-    fn growth(setup: &(), run: &Ran) {
+    fn growth(setup: &(), run: &CoastDownRun) {
         "peak_growth_rate": number "1/s" headline, GROWTH, "largest growth rate of a disturbance of the temperatures" => {
             run.free.rows.iter().map(|row| row.growth).fold(f64::NEG_INFINITY, f64::max)
         };
     }
-    fn viscosity(of: &(usize, &Part), run: &Ran) {
+    fn viscosity(of: &(usize, &Part), run: &CoastDownRun) {
         "smallest_viscosity_ratio": number "1", KAPPA, "viscosity ratio exceeded in 99 % of the turns" => {
             let ratios = run.free.rows.iter().map(|row| viscosity_ratio(of.0, of.1, row));
             least_of_turns(ratios.zip(turned(&run.free.rows)).collect())
@@ -166,7 +166,7 @@ fn no_ratings(part: &Part) -> Option<String> {
     not_given(keys, part.ratings())
 }
 
-impl Ran<'_> {
+impl CoastDownRun<'_> {
     /// The largest of a value of the rows of a bearing.
     fn most(&self, k: usize, of: fn(&RowOfBearing) -> f64) -> f64 {
         self.rows(k).map(of).fold(0.0, f64::max)
@@ -323,7 +323,7 @@ const LEAST_LOAD: f64 = 1e-3;
 /// Share of the rating life that the coast-down uses at the points of both rings of one bearing, with a life factor at each row and the radial
 /// load that presses the balls as hard, W ΣQ/ΣQ_0, N.
 fn used(
-    ran: &Ran,
+    ran: &CoastDownRun,
     k: usize,
     part: &Part,
     rating: f64,

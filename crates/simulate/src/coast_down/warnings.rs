@@ -4,8 +4,8 @@ use crate::assumptions;
 use crate::bearing::severity::wide_line;
 use crate::bearing::warning_table::{BearingWarning, HeatWarning};
 use crate::coast_down::build::{ICE_POINT, Part};
-use crate::coast_down::ran::{NodeOf, Ran};
 use crate::coast_down::rows::{End, Row};
+use crate::coast_down::run::{CoastDownRun, NodeOf};
 use model::system::sampling::Peak;
 use outcome::Warning;
 use physics::friction::Friction;
@@ -31,7 +31,7 @@ problem::warnings! {
 }
 
 /// Of a coast-down by itself.
-pub(super) fn of(ran: &Ran) -> Vec<Warning> {
+pub(super) fn of(ran: &CoastDownRun) -> Vec<Warning> {
     let mut list = of_course(ran);
     for (k, part) in ran.parts() {
         list.extend(
@@ -45,7 +45,7 @@ pub(super) fn of(ran: &Ran) -> Vec<Warning> {
 }
 
 /// Of its course, whatever went before.
-pub(crate) fn of_course(ran: &Ran) -> Vec<Warning> {
+pub(crate) fn of_course(ran: &CoastDownRun) -> Vec<Warning> {
     let away = runs_away(ran);
     let open = away.is_none();
     let mut list: Vec<Warning> = away.into_iter().collect();
@@ -79,7 +79,7 @@ fn words(time: f64) -> String {
 /// What a disturbance may grow by, over it, before a bearing calms down, without a word.
 const SLIGHT: f64 = 0.01;
 
-fn runs_away(ran: &Ran) -> Option<Warning> {
+fn runs_away(ran: &CoastDownRun) -> Option<Warning> {
     let grows = |row: &&Row| row.growth > 0.0 && row.clearance() < 0.0;
     let growing = || ran.free.rows.iter().filter(grows);
     let row = growing().next()?;
@@ -153,7 +153,7 @@ pub(crate) fn loose_ring(time: f64, when: String, seat: &str) -> Warning {
 }
 
 /// A ring that loses its fit on the way.
-fn loose(ran: &Ran, k: usize) -> Option<Warning> {
+fn loose(ran: &CoastDownRun, k: usize) -> Option<Warning> {
     let part = &ran.built.parts[k];
     let at = |row: &Row| {
         let temperatures = &row.temperatures[k * NODES.len()..][..NODES.len()];
@@ -180,7 +180,7 @@ pub(crate) fn to_take(of: &str, most: f64, all: f64) -> String {
     format!(" To hold the limits {most:.1} W at most, {energy} in all, must be taken from {of}.")
 }
 
-fn limits(ran: &Ran) -> Option<Warning> {
+fn limits(ran: &CoastDownRun) -> Option<Warning> {
     let nodes = ran
         .parts()
         .flat_map(|(k, part)| part.nodes(k))
@@ -238,7 +238,7 @@ fn limits(ran: &Ran) -> Option<Warning> {
 /// Change of a clearance that was closed from the start which is worth a word, m.
 const CLOSES_ON: f64 = 0.5e-6;
 
-fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
+fn stays_closed(ran: &CoastDownRun, k: usize) -> Option<Warning> {
     let at = ran.first(|row| -row.bearings[k].clearance)?;
     let first = &ran.free.rows[0];
     let least = ran.rows(k).map(|row| row.clearance);
@@ -270,7 +270,7 @@ fn stays_closed(ran: &Ran, k: usize) -> Option<Warning> {
 }
 
 /// Balls that dent the races on the way.
-fn dents(ran: &Ran, k: usize) -> Option<Warning> {
+fn dents(ran: &CoastDownRun, k: usize) -> Option<Warning> {
     let part = &ran.built.parts[k];
     let hardest = ran
         .rows(k)
@@ -285,7 +285,7 @@ fn dents(ran: &Ran, k: usize) -> Option<Warning> {
     (pressure > limit).then(|| warning.into())
 }
 
-fn viscosity(ran: &Ran, bearing: usize) -> Option<Warning> {
+fn viscosity(ran: &CoastDownRun, bearing: usize) -> Option<Warning> {
     let lubricant = NodeOf {
         bearing,
         node: LUBRICANT,
@@ -320,7 +320,7 @@ pub(crate) fn beyond_data(oil: &Viscosity, found: &BeyondData) -> Warning {
     warning.into()
 }
 
-fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
+fn too_fast(ran: &CoastDownRun, k: usize) -> Option<Warning> {
     let limit =
         (ran.built.parts[k].warm.limiting_speed).filter(|limit| ran.free.rows[0].speed > *limit)?;
     let rows = ran.free.rows.iter();
@@ -332,7 +332,7 @@ fn too_fast(ran: &Ran, k: usize) -> Option<Warning> {
 }
 
 /// The friction law outside its range, at the temperatures and loads of the run.
-fn law_range(ran: &Ran, k: usize) -> Vec<Warning> {
+fn law_range(ran: &CoastDownRun, k: usize) -> Vec<Warning> {
     let losses = &ran.built.parts[k].losses;
     let departures = ran.free.rows.iter().flat_map(|row| {
         let speed = row.bearings[k].speed;
@@ -351,7 +351,7 @@ fn law_range(ran: &Ran, k: usize) -> Vec<Warning> {
 const BRAKES: f64 = 100.0;
 
 /// Gas that takes heat from a bearing and brakes nothing.
-fn gas(ran: &Ran) -> Option<Warning> {
+fn gas(ran: &CoastDownRun) -> Option<Warning> {
     let rotor = &ran.built.rotor;
     let (_, part) = ran
         .parts()
@@ -369,7 +369,7 @@ fn wide(part: &Part) -> Option<Warning> {
     wide_line(line.half_width(part.zone.load), line.bore, line.clearance)
 }
 
-fn turns_on(ran: &Ran) -> Option<Warning> {
+fn turns_on(ran: &CoastDownRun) -> Option<Warning> {
     let (time, speed) = (ran.free.state.time, ran.free.state.speed);
     matches!(ran.free.end, End::Late | End::Reached)
         .then(|| CoastDownWarning::TurnsOn { time, speed }.into())

@@ -29,7 +29,7 @@ use scenario::{AuxiliaryBearing, Spin};
 
 /// A drop ready to be simulated.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Built {
+pub struct DropModel {
     /// The drop with the model of its rotor.
     pub drop: Drop,
     /// Constants of the model.
@@ -50,12 +50,12 @@ pub struct BuiltBearing {
 }
 
 /// Builds the constants of a drop.
-pub fn drop(given: &scenario::Drop) -> Result<Built, Box<Problem>> {
+pub fn drop(given: &scenario::Drop) -> Result<DropModel, Box<Problem>> {
     built(Drop::of(given)?)
 }
 
 /// Builds the constants of a drop whose rotor has its model.
-pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
+pub(super) fn built(drop: Drop) -> Result<DropModel, Box<Problem>> {
     let shaft = match &drop.shaft {
         Some(given) => {
             let built = shaft::build(&drop, given, gravity(&drop))?;
@@ -95,7 +95,7 @@ pub(super) fn built(drop: Drop) -> Result<Built, Box<Problem>> {
         constants.loaded = built.loaded.clone();
         constants.unbalances = built.unbalances.clone();
     }
-    Ok(Built {
+    Ok(DropModel {
         drop,
         constants,
         bearings,

@@ -3,7 +3,7 @@
 use crate::bearing::quantities::BearingSetup;
 use crate::bearing::run::BearingRun;
 use crate::bearing::warm::{Followed, Heated};
-use crate::drop::build::Built;
+use crate::drop::build::DropModel;
 use crate::drop::shaft::BuiltShaft;
 use crate::drop::{Drop, Shaft};
 use crate::ensemble::Finished;
@@ -11,10 +11,13 @@ use model::system::machine::record::BearingRecord;
 use model::system::machine::{MOST_SPEEDS, RotorMachine};
 use scenario::AuxiliaryBearing;
 
+/// A bounce through a clearance lasts no longer, s.
+pub(super) const BOUNCE: f64 = 0.05;
+
 /// A drop before its run.
 #[derive(Clone, Copy)]
 pub(crate) struct Setup<'a> {
-    pub built: &'a Built,
+    pub built: &'a DropModel,
     pub machine: &'a RotorMachine,
 }
 
@@ -104,6 +107,25 @@ impl<'a> Context<'a> {
     }
     pub fn bearing(&self, k: usize) -> BearingRun<'a> {
         self.setup.bearing(k).after(self.finished, k)
+    }
+    /// The speed of the race over that of the rotor, where the rotor touches it at the end, or may soon again, and slips.
+    pub fn slips_at_end(&self, k: usize) -> Option<f64> {
+        let layout = self.setup.machine.layout();
+        let state = &self.finished.ending.state;
+        let speed = |channel: usize| state[channel].abs();
+        let share = speed(layout.bearings[k].inner.spin()) / speed(layout.rotor.spin());
+        let record = self.record(k);
+        let contacts = &record.contacts;
+        let pause = |from: Option<f64>, to: f64| from.map_or(0.0, |from| to - from);
+        let pauses = contacts.windows(2);
+        let pauses = pauses.map(|two| pause(two[0].end, two[1].start));
+        let longest = pauses.fold(BOUNCE, f64::max);
+        let now = contacts.last();
+        let now = now.map(|last| pause(last.end, self.end));
+        let in_bore = now.is_some_and(|now| now <= longest);
+        let face = (record.spatial.as_deref()).and_then(|own| own.last_axial_contact);
+        let on_face = face.is_some_and(|last| self.end - last <= BOUNCE);
+        (share < 0.95 && (in_bore || on_face)).then_some(share)
     }
 }
 

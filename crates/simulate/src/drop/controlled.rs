@@ -3,7 +3,7 @@
 //! The machine is driven from outside at the instants at which its own controllers, which the linear analysis and the start take, would
 //! sample and release: a controller that computes what these do gives the same numbers.
 
-use crate::drop::driven::{Commands, Driven, Reached, Way};
+use crate::drop::driven::{Commands, Driven, Driving, Reached};
 use crate::drop::each::One;
 use levitation::Timing;
 use model::magnets::ControlEvent;
@@ -15,7 +15,7 @@ use std::sync::atomic::Ordering;
 
 /// Runs it with the controller in a file.
 pub(super) fn run(one: &One, file: &str, options: &Options) -> Outcome {
-    let controlled = Way {
+    let controlled = Driving {
         commands: commands(one),
         keep_history: one.member.keep_rows,
         stops_at_contacts: false,

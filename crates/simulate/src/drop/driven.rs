@@ -3,7 +3,7 @@
 //!
 //! It takes the steps of its run: commands that change where those of its own sampled controllers did give the same bits.
 
-use crate::drop::build::Built;
+use crate::drop::build::DropModel;
 use crate::drop::context::{Context, Setup};
 use crate::drop::driven_columns::{self as table, Variable};
 use crate::drop::each::One;
@@ -26,7 +26,7 @@ use std::sync::atomic::AtomicBool;
 
 /// How a machine is driven.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Way {
+pub struct Driving {
     /// What the commands of its magnets are.
     pub commands: Commands,
     /// Whether the rows of its history are kept for the results of its run.
@@ -61,7 +61,7 @@ enum Target {
 pub struct Driven {
     commands: Commands,
     scenario: Scenario,
-    built: Arc<Built>,
+    built: Arc<DropModel>,
     member: Member,
     stepping: Stepping,
     driver: Box<dyn Driver>,
@@ -135,12 +135,16 @@ impl Driven {
     ///
     /// # Errors
     /// Where amplifiers take no such commands, forces would act at too many nodes, or it coasts on until its standstill.
-    pub fn new(scenario: &Scenario, built: &Arc<Built>, way: Way) -> Result<Self, Box<Problem>> {
+    pub fn new(
+        scenario: &Scenario,
+        built: &Arc<DropModel>,
+        way: Driving,
+    ) -> Result<Self, Box<Problem>> {
         Self::of(&One::of(scenario, built.clone()), way)
     }
 
     /// The machine of a drop that is ready to run, at its start.
-    pub(super) fn of(one: &One, way: Way) -> Result<Self, Box<Problem>> {
+    pub(super) fn of(one: &One, way: Driving) -> Result<Self, Box<Problem>> {
         let (scenario, built) = (one.scenario, &one.built);
         if built.drop.coast_down.is_some() {
             let found = "\"standstill\"";
@@ -446,7 +450,7 @@ fn inputs(
 }
 
 /// Why a machine cannot be driven so.
-fn refused(built: &Built, commands: Commands, fault: NotDriven) -> Box<Problem> {
+fn refused(built: &DropModel, commands: Commands, fault: NotDriven) -> Box<Problem> {
     match fault {
         NotDriven::Nodes => {
             let found = format!("forces from outside at more than {MOST_LOADED} nodes");

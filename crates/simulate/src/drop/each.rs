@@ -1,6 +1,6 @@
 //! Many drops of machines that differ: each a single run, in lanes and threads with those of its kind.
 
-use crate::drop::build::{self, Built};
+use crate::drop::build::{self, DropModel};
 use crate::drop::context::{Context, Setup};
 use crate::drop::events;
 use crate::drop::method::stepping;
@@ -25,7 +25,7 @@ pub struct One<'a> {
     /// What was written.
     pub scenario: &'a Scenario,
     /// The drop in it, and its constants.
-    pub built: Arc<Built>,
+    pub built: Arc<DropModel>,
     pub(crate) member: Member,
     pub(crate) stepping: Stepping,
     kind: Arc<Kind>,
@@ -56,7 +56,7 @@ pub fn one<'a>(scenario: &'a Scenario, given: &Drop) -> Result<One<'a>, Box<Prob
 
 impl<'a> One<'a> {
     /// A drop of its scenario; its history is not kept.
-    pub fn of(scenario: &'a Scenario, built: Arc<Built>) -> Self {
+    pub fn of(scenario: &'a Scenario, built: Arc<DropModel>) -> Self {
         let machine = RotorMachine::new(built.constants.clone());
         let mut start = match &built.shaft {
             Some(shaft) => machine.start_with(&shaft.position, &shaft.velocity),

@@ -1,8 +1,8 @@
 //! What happened to a machine, and when; whether it was levitated again.
 
+use crate::drop::context::BOUNCE;
 use crate::drop::context::{Context, Setup};
 use crate::drop::magnets::value_of;
-use crate::drop::quantities::BOUNCE;
 use crate::drop::warning_table::ShaftWarning;
 use crate::drop::{Drop, Shaft};
 use crate::rotor::LevitationModel;

@@ -9,10 +9,10 @@
 //! clearance and is stopped by the mount. Where the slope depends on rolling, it is that of balls that do not roll yet:
 //! the largest.
 
-use crate::drop::build::Built;
+use crate::drop::build::DropModel;
 use crate::drop::shaft::BuiltShaft;
 use crate::ending::DESIGN;
-use crate::stepping::{Asked, Stepping};
+use crate::stepping::{StepRequest, Stepping};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use model::bearing::tangents::Known;
 use model::bearing::{BearingConstants, PlanarConstants};
@@ -28,9 +28,9 @@ const DESIGN_BENT: f64 = 2e-5;
 const SCREENING_BOUND: f64 = 3e-3;
 
 /// What decides the steps of a drop.
-pub(crate) fn asked(built: &Built, known: Known) -> Asked<'_> {
+pub(crate) fn asked(built: &DropModel, known: Known) -> StepRequest<'_> {
     let shaft = built.shaft.as_ref();
-    let asked = Asked {
+    let asked = StepRequest {
         run: &built.drop.run,
         known,
         quickest_mode: shaft.map_or(0.0, BuiltShaft::quickest_mode),
@@ -41,7 +41,7 @@ pub(crate) fn asked(built: &Built, known: Known) -> Asked<'_> {
         screening: SCREENING,
     };
     match asked.is_bound_by_modes() {
-        true => Asked {
+        true => StepRequest {
             screening: SCREENING_BOUND,
             ..asked
         },
@@ -50,12 +50,12 @@ pub(crate) fn asked(built: &Built, known: Known) -> Asked<'_> {
 }
 
 /// The steps of a drop.
-pub(crate) fn stepping(built: &Built, known: Known) -> Stepping {
+pub(crate) fn stepping(built: &DropModel, known: Known) -> Stepping {
     asked(built, known).stepping(|| stiffest(built))
 }
 
 /// The largest λ/ω of its auxiliary bearings.
-fn stiffest(built: &Built) -> f64 {
+fn stiffest(built: &DropModel) -> f64 {
     let parts = built.constants.bearings.iter();
     let stiffnesses = parts.filter_map(|part| match &part.bearing {
         BearingConstants::Planar(bearing) => Some(stiffness(built, part, bearing)),
@@ -65,7 +65,11 @@ fn stiffest(built: &Built) -> f64 {
 }
 
 /// λ/ω of an auxiliary bearing in a first impact.
-fn stiffness(built: &Built, part: &AuxiliaryBearingConstants, bearing: &PlanarConstants) -> f64 {
+fn stiffness(
+    built: &DropModel,
+    part: &AuxiliaryBearingConstants,
+    bearing: &PlanarConstants,
+) -> f64 {
     let fall = 2.0 * built.drop.gravity.acceleration * part.contact.radial_clearance;
     let mass = built.constants.rotor.mass() / part.planes;
     let force = (fall * part.mount.stiffness * mass).sqrt();

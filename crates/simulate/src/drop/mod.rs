@@ -34,7 +34,7 @@ pub(crate) mod warnings;
 pub use body::{Drop, Shaft};
 
 use crate::bearing::races::without_count;
-use crate::drop::build::Built;
+use crate::drop::build::DropModel;
 use crate::drop::context::{Context, Setup};
 use crate::drop::each::One;
 use crate::drop::multirate::results::{self as coast_down, After};
@@ -43,14 +43,14 @@ use outcome::{Column, Contact, Outcome, Picture, Quantity, Work};
 use scenario::Scenario;
 
 /// The columns of its history, without values.
-pub fn columns(built: &Built) -> Vec<Column> {
+pub fn columns(built: &DropModel) -> Vec<Column> {
     let machine = &RotorMachine::new(built.constants.clone());
     let setup = Setup { built, machine };
     columns::history(setup, None)
 }
 
 /// The results of a drop, without values.
-pub fn results(built: &Built) -> Vec<Quantity> {
+pub fn results(built: &DropModel) -> Vec<Quantity> {
     let machine = &RotorMachine::new(built.constants.clone());
     let setup = Setup { built, machine };
     let mut list = quantities::name(setup, None);

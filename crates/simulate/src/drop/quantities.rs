@@ -28,8 +28,6 @@ use std::f64::consts::PI;
 const EQUATIONS: &str =
     "equations of motion, crates/model/src/system/machine/rate.rs and crates/model/src/bearing/";
 const CONTACT: &str = "Hunt and Crossley 1975, crates/model/src/contact.rs";
-/// A bounce through a clearance lasts no longer, s.
-pub(super) const BOUNCE: f64 = 0.05;
 const EVENT: &str = "root on dense output of the time integration, crates/solve/src/watch.rs";
 const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
@@ -152,24 +150,6 @@ impl<'a> Landed<'a> {
         let none = || "rotor and face never touched in this run".to_string();
         self.record.spatial.as_deref().and_then(of).ok_or_else(none)
     }
-    /// Whether the rotor touches it at the end, or may soon again, and slips: 1 or 0.
-    fn slips_at_end(&self) -> f64 {
-        let layout = self.context.setup.machine.layout();
-        let at = layout.bearings[self.k];
-        let speed = |channel: usize| self.balls.end[channel].abs();
-        let slips = speed(at.inner.spin()) < 0.95 * speed(layout.rotor.spin());
-        let contacts = &self.record.contacts;
-        let pause = |from: Option<f64>, to: f64| from.map_or(0.0, |from| to - from);
-        let pauses = contacts.windows(2);
-        let pauses = pauses.map(|two| pause(two[0].end, two[1].start));
-        let longest = pauses.fold(BOUNCE, f64::max);
-        let now = contacts.last();
-        let now = now.map(|last| pause(last.end, self.context.end));
-        let in_bore = now.is_some_and(|now| now <= longest);
-        let face = self.space(|own| own.last_axial_contact);
-        let on_face = face.is_ok_and(|last| self.context.end - last <= BOUNCE);
-        f64::from(u8::from(slips && (in_bore || on_face)))
-    }
     fn landed_first(&self) -> Result<&'static str, String> {
         let bore = self.record.contacts.first().map(|contact| contact.start);
         let face = self.space(|own| own.first_axial_contact).ok();
@@ -212,12 +192,22 @@ impl<'a> Landed<'a> {
         own.map(|own| self.after(own.time)).ok_or_else(none)
     }
     fn whirl_direction(&self) -> &'static str {
-        let turns = self.record.whirl_turns;
-        match turns * self.context.setup.machine.constants.speed.signum() > 0.0 {
-            _ if turns.abs() < 1.0 => "none",
-            true => "forward",
-            false => "backward",
+        let [forward, backward] = self.whirl();
+        match (backward < 1.0, forward < 1.0) {
+            (false, _) => "backward",
+            (true, false) => "forward",
+            (true, true) => "none",
         }
+    }
+    /// The most turns of whirl in succession with the spin and against it.
+    fn whirl(&self) -> [f64; 2] {
+        let speed = self.context.setup.machine.constants.speed;
+        self.record.whirl_turns.about(speed)
+    }
+    /// Those in one sense, counter-clockwise positive.
+    fn whirl_turns(&self) -> f64 {
+        let [left, right] = self.record.whirl_turns.most;
+        if left < right { -right } else { left }
     }
 }
 
@@ -236,7 +226,7 @@ results! {
         "contact_start_times": list "s", CONTACT_STARTS, "begins of the contacts after the release" => {
             run.record.contacts.iter().map(|contact| run.after(contact.start)).collect::<Vec<_>>()
         };
-        "slips_at_end": number "", SLIPS, "1 where the rotor touches it at the end, or may soon again, and its inner race or bushing is slower than 95 % of the rotor; else 0" => run.slips_at_end();
+        "slips_at_end": number "", SLIPS, "1 where the rotor touches it at the end, or may soon again, and its inner race or bushing is slower than 95 % of the rotor; else 0" => f64::from(u8::from(run.context.slips_at_end(run.k).is_some()));
     }
     fn spin_up(setup: &(), run: &Landed) {
         "inner_race_time_to_50_percent": instant "s", RISE, "time of the inner race to half of the release speed" in instants_after_release "race 50 %" in note "Inner race at 95 % speed: half of it at" => {
@@ -269,14 +259,14 @@ results! {
         "time_to_first_axial_contact": instant "s", AXIAL, "first contact of a shoulder and a face after the release" in instants_after_release "axial contact" when setup.stops() => {
             run.space(|own| own.first_axial_contact.map(|time| run.after(time)))
         };
-        "peak_axial_force": number "N" headline, AXIAL, "largest force between shoulder and face" in tile "Peak axial force" when setup.stops() => {
+        "peak_axial_force": contact "N" headline, AXIAL, "largest force between shoulder and face" in tile "Peak axial force" when setup.stops() => {
             run.space(|own| own.first_axial_contact.map(|_| own.axial_force.value))
         };
         "max_mount_axial_displacement": number "m", MOUNT_ALONG, "largest displacement of the outer ring along the axis" in note "Peak axial force: outer ring moves by" when setup.stops() => {
             run.record.spatial.as_ref().map_or(f64::NAN, |own| own.outer_place.value)
         };
         "axial_force_at_end": number "N", AXIAL, "force between shoulder and face at the end" in note "Peak axial force: at the end [N]" when setup.stops() => run.axial_force_at_end();
-        "face_temperature_rise": number "K", FACE_HEAT, "largest mean rise of shoulder and face" in note "Peak axial force: mean rise of the face [K]" when setup.stops() => {
+        "face_temperature_rise": contact "K", FACE_HEAT, "largest mean rise of shoulder and face" in note "Peak axial force: mean rise of the face [K]" when setup.stops() => {
             run.space(|own| own.first_axial_contact.map(|_| own.face_heat.rise.value))
         };
         "face_temperature_time": instant "s", FACE_HEAT, "instant of this rise" when setup.stops() => run.space(|own| own.first_axial_contact.map(|_| own.face_heat.rise.time));
@@ -316,7 +306,8 @@ results! {
         };
         "max_mount_displacement": number "m", MOUNT_DISPLACEMENT, "largest displacement of the outer race across its axis" => run.record.mount_displacement.value;
         "whirl_direction": text "" headline, WHIRL, "direction of whirl" => run.whirl_direction();
-        "whirl_turns": number "", WHIRL, "net turns of whirl about the inner race" => run.record.whirl_turns;
+        "whirl_turns": number "", WHIRL, "most turns of whirl about the inner race in succession in one sense, counter-clockwise positive" => run.whirl_turns();
+        "backward_whirl_turns": number "", WHIRL, "most turns of whirl in succession against the spin" => run.whirl()[1];
         "travel_index": number "1", TRAVEL, "longest way of the rotor in one turn over that of full whirl" => run.per_turn(run.record.travel.longest, 2.0 * PI);
         "speed_index": number "1", SPEED_INDEX, "mean speed of the rotor's centre over that of full whirl" => {
             run.per_turn(run.record.travel.way, run.record.travel.turned)
@@ -471,7 +462,7 @@ origins! {
     ROTOR_DISPLACEMENT: law "largest distance of the rotor centre from the line of levitation, while in contact, at the steps",
         source EVENT,
         valid "compare it with seals and other air gaps at this plane";
-    WHIRL: law "net turns of the rotor about the inner race while outside half its clearance; below one turn: none",
+    WHIRL: law "turns of the rotor about the inner race while outside half its clearance, most in succession; below one turn: none",
         source "definition",
         valid "a rotor that bends may whirl backward where a rigid one does not: system = \"machine\"";
     ENERGY: law "time integral of friction force times sliding speed, and of every other loss",

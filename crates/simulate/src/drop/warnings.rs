@@ -10,7 +10,7 @@ use crate::drop::multirate::results::After;
 use crate::drop::quantities::residuals;
 use crate::drop::warning_table::{BENDING_SHARE, DropWarning};
 use crate::drop::{axial, base, events, magnets, method, mount_results, shaft_results, surfaces};
-use crate::stepping::Asked;
+use crate::stepping::StepRequest;
 use model::auxiliary_bearing::probe::{PENETRATION, PENETRATION_SPEED};
 use model::system::sampling::Peak;
 use outcome::Warning;
@@ -27,7 +27,7 @@ const CHAOTIC_CONTACTS: usize = 10;
 const LARGEST_DAMPING: f64 = 0.5;
 
 /// What decides the steps of a drop.
-fn asked<'a>(context: &Context<'a>) -> Asked<'a> {
+fn asked<'a>(context: &Context<'a>) -> StepRequest<'a> {
     method::asked(context.setup.built, context.setup.machine.tangents())
 }
 
@@ -156,7 +156,8 @@ pub(crate) fn of(scenario: &Scenario, context: &Context, after: Option<&After>) 
 
 /// A rotor that runs round the bore against its spin.
 fn whirl(context: &Context, k: usize) -> Option<Graded> {
-    let back = -context.record(k).whirl_turns * context.setup.machine.constants.speed.signum();
+    let speed = context.setup.machine.constants.speed;
+    let [_, back] = context.record(k).whirl_turns.about(speed);
     (back >= 1.0).then(|| (back, DropWarning::BackwardWhirl { turns: back }.into()))
 }
 
@@ -336,7 +337,7 @@ fn no_thrust(context: &Context) -> Option<Graded> {
     Some((moved, warning.into()))
 }
 
-/// A run that ends before the rotor comes to a bearing or its bore, or while the force on it grows.
+/// A run that ends before the rotor comes to a bearing or its bore, while the force on it grows, or while it slips on its race.
 fn too_short(context: &Context, k: usize) -> Option<Graded> {
     let drop = context.setup.drop();
     let record = context.record(k);
@@ -382,7 +383,12 @@ fn too_short(context: &Context, k: usize) -> Option<Graded> {
         Some((force, DropWarning::StillRising { force, time }.into()))
     };
     let mut both = bore.into_iter().chain(face);
-    both.find_map(grows)
+    both.find_map(grows).or_else(|| {
+        // a bushing never turns, and says so
+        context.setup.given(k).bearing.as_ref()?;
+        let share = context.slips_at_end(k)?;
+        Some((1.0 - share, DropWarning::StillSlips { share }.into()))
+    })
 }
 
 /// Balls that traction cannot turn.

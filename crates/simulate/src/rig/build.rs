@@ -2,7 +2,7 @@
 
 use crate::bearing;
 use crate::bearing::steady::SteadyPoint;
-use crate::rig::run::Built;
+use crate::rig::run::RigModel;
 use model::auxiliary_bearing::RaceConstants;
 use model::bearing_heat::WarmBearing;
 use model::system::machine::RotorMachine;
@@ -21,7 +21,7 @@ use thermal::bearing_network::OUTER_RACE;
 const FADING: f64 = 0.5;
 
 /// Builds the machine of a test. The weight of the balls is left out: it is a thousandth of any load.
-pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
+pub fn rig(rig: &Rig) -> Result<RigModel, Box<Problem>> {
     let contacts = bearing::contacts::ball_contacts(&rig.bearing)?;
     let bearing = bearing::build::bearing(&rig.bearing, &contacts, Vec2::zero())?;
     let centre_held = rig.load.hanging_mass.is_none();
@@ -98,7 +98,7 @@ pub fn rig(rig: &Rig) -> Result<Built, Box<Problem>> {
         constants.drive = Drive::Clutch(Box::new(clutch(rate)));
     }
     let machine = RotorMachine::on_rig(constants).map_err(refused)?;
-    Ok(Built {
+    Ok(RigModel {
         machine,
         torque_rate,
         pressure_factors: contacts.pressure_factors(),

@@ -2,7 +2,7 @@
 
 use crate::bearing::columns::Table;
 use crate::bearing::warm::{self, Heated};
-use crate::rig::run::{Built, bearing};
+use crate::rig::run::{RigModel, bearing};
 use crate::rig::{Context, given};
 use model::auxiliary_bearing::probe::{BEARING_LOAD, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD};
 use model::bearing::BearingConstants;
@@ -19,7 +19,7 @@ use scenario::Rig;
 use thermal::bearing_network::OUTER_RACE;
 
 /// All columns; `time` first.
-pub(crate) fn history(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Column> {
+pub(crate) fn history(rig: &Rig, built: &RigModel, run: Option<&Context>) -> Vec<Column> {
     let machine = &built.machine;
     let layout = machine.layout();
     let of = run.map_or_else(|| bearing(built), |run| run.bearing());

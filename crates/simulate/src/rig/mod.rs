@@ -27,7 +27,7 @@ use model::system::rig::Taps;
 use model::system::rig::layout::{ARM, CAGE_ANGLE, SHAFT, THERMOCOUPLE};
 use outcome::options::Options;
 use outcome::{Column, Outcome, Quantity};
-use run::{Built, RigRun, RunInput};
+use run::{RigModel, RigRun, RunInput};
 use scenario::{Rig, RigProgram, Scenario};
 use solve::Steps;
 use std::iter;
@@ -53,12 +53,12 @@ impl<'a> Deref for Context<'a> {
 }
 
 /// The columns of its history, without values.
-pub fn columns(rig: &Rig, built: &Built) -> Vec<Column> {
+pub fn columns(rig: &Rig, built: &RigModel) -> Vec<Column> {
     columns::history(rig, built, None)
 }
 
 /// The results of a test, without values.
-pub fn results(rig: &Rig, built: &Built) -> Vec<Quantity> {
+pub fn results(rig: &Rig, built: &RigModel) -> Vec<Quantity> {
     quantities::name(rig, built, None)
 }
 
@@ -78,14 +78,14 @@ const STEPPING: Stepping = Stepping {
 };
 
 /// A test at its start, to be driven from outside.
-pub fn simulation(rig: &Rig, built: &Built) -> Simulation {
+pub fn simulation(rig: &Rig, built: &RigModel) -> Simulation {
     let machine = built.machine.clone();
     let start = machine.start();
     Simulation::of(machine, &start, &rig.run, STEPPING)
 }
 
 /// Runs a test.
-pub fn run(scenario: &Scenario, rig: &Rig, built: &Built, options: &Options) -> Outcome {
+pub fn run(scenario: &Scenario, rig: &Rig, built: &RigModel, options: &Options) -> Outcome {
     let run = RigRun::of(built, given(rig), STEPPING, &chain::taps(rig), options);
     let bead = run.followed().map(|followed| bead(rig, &followed));
     let happened = happened(rig, &run.rig().taps, bead.as_ref());

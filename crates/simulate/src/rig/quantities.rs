@@ -1,7 +1,7 @@
 //! Every named result of a test on a rig with its law, source and valid range: what happened, not what was measured of it.
 
 use crate::bearing::quantities::{BearingSetup, ball_loads, races_and_lubricant};
-use crate::rig::run::{Built, name_temperatures};
+use crate::rig::run::{RigModel, name_temperatures};
 use crate::rig::{Context, given};
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use model::system::rig::layout::{
@@ -17,7 +17,7 @@ const EQUATIONS: &str = "equations of motion, crates/model/src/system/rig/fixtur
 const LEDGER: &str = "energy ledger, crates/model/src/system/machine/ledger.rs";
 
 /// Names the results; without a run those of any.
-pub(crate) fn name(rig: &Rig, built: &Built, run: Option<&Context>) -> Vec<Quantity> {
+pub(crate) fn name(rig: &Rig, built: &RigModel, run: Option<&Context>) -> Vec<Quantity> {
     let mut list = List::default();
     motion(&mut list, rig, run);
     name_temperatures(&mut list, given(rig).heated(built), run.map(|run| &**run));

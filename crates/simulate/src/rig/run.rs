@@ -21,7 +21,7 @@ use std::ops::Deref;
 
 /// A rig ready to be simulated.
 #[derive(Clone, Debug)]
-pub struct Built {
+pub struct RigModel {
     /// The machine.
     pub machine: RotorMachine,
     /// Rate of a clutch's torque, N m/s: as given, or found; none where none engages.
@@ -42,7 +42,7 @@ pub(crate) struct RunInput<'a> {
 
 impl<'a> RunInput<'a> {
     /// The bearing, where its temperatures are followed.
-    pub fn heated(self, built: &'a Built) -> Option<Heated<'a>> {
+    pub fn heated(self, built: &'a RigModel) -> Option<Heated<'a>> {
         let part = built.machine.constants.bearings[0].warm.as_deref();
         Heated::of(self.warm, self.bearing, part)
     }
@@ -50,7 +50,7 @@ impl<'a> RunInput<'a> {
 
 /// A run.
 pub(crate) struct RigRun<'a> {
-    pub built: &'a Built,
+    pub built: &'a RigModel,
     given: RunInput<'a>,
     finished: Finished,
     stepping: Stepping,
@@ -66,7 +66,7 @@ impl Deref for RigRun<'_> {
 impl<'a> RigRun<'a> {
     /// Runs a rig.
     pub fn of(
-        built: &'a Built,
+        built: &'a RigModel,
         given: RunInput<'a>,
         stepping: Stepping,
         taps: &[Tap],
@@ -155,7 +155,7 @@ impl<'a> RigRun<'a> {
 }
 
 /// The bearing as it is before a run.
-pub(crate) fn bearing(built: &Built) -> BearingRun<'_> {
+pub(crate) fn bearing(built: &RigModel) -> BearingRun<'_> {
     BearingRun::before(&built.machine, 0, built.pressure_factors)
 }
 

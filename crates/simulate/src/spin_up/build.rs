@@ -3,7 +3,7 @@
 use crate::bearing;
 use crate::bearing::loss::table;
 use crate::bearing::steady::{SteadyPoint, refused};
-use crate::rig::run::Built;
+use crate::rig::run::RigModel;
 use model::auxiliary_bearing::RaceConstants;
 use model::system::machine::RotorMachine;
 use model::system::rig::{Drive, RigConstants, SlidingRotor};
@@ -13,7 +13,7 @@ use problem::Problem;
 use scenario::{Course, Drive as DriveChoice, SpeedCourse, SpinUp};
 
 /// Builds the machine of a spin-up. The weight of the balls is left out: it is a thousandth of any load.
-pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
+pub fn spin_up(spin_up: &SpinUp) -> Result<RigModel, Box<Problem>> {
     let (sine, cosine) = spin_up.load_direction.sin_cos();
     let gravity = Vec2::zero();
     let race = RaceConstants {
@@ -44,7 +44,7 @@ pub fn spin_up(spin_up: &SpinUp) -> Result<Built, Box<Problem>> {
         target_speed,
     })
     .map_err(refused)?;
-    Ok(Built {
+    Ok(RigModel {
         machine,
         torque_rate: None,
         pressure_factors: contacts.pressure_factors(),

@@ -2,7 +2,7 @@
 
 use crate::bearing::columns::Table;
 use crate::bearing::warm;
-use crate::rig::run::{Built, bearing};
+use crate::rig::run::{RigModel, bearing};
 use crate::spin_up::{Context, given};
 use model::auxiliary_bearing::probe::{
     FRICTION_FORCE, LARGEST_INNER_LOAD, LARGEST_OUTER_LOAD, NORMAL_FORCE, SLIP_SPEED,
@@ -16,7 +16,7 @@ use outcome::columns::columns;
 use scenario::{Drive, SpinUp};
 
 /// All columns; `time` first.
-pub(crate) fn history(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Vec<Column> {
+pub(crate) fn history(spin_up: &SpinUp, built: &RigModel, run: Option<&Context>) -> Vec<Column> {
     let layout = built.machine.layout();
     let of = run.map_or_else(|| bearing(built), |run| run.bearing());
     let mut table = Table::over(&of);

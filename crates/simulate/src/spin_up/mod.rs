@@ -5,9 +5,9 @@ mod columns;
 mod quantities;
 pub mod warnings;
 
-use crate::rig::run::{Built, RigRun, RunInput};
+use crate::rig::run::{RigModel, RigRun, RunInput};
 use crate::simulation::Simulation;
-use crate::stepping::Asked;
+use crate::stepping::StepRequest;
 use outcome::options::Options;
 use outcome::{Column, Outcome, Quantity};
 use scenario::{Scenario, SpinUp};
@@ -32,17 +32,17 @@ impl<'a> Deref for Context<'a> {
 }
 
 /// The columns of its history, without values.
-pub fn columns(spin_up: &SpinUp, built: &Built) -> Vec<Column> {
+pub fn columns(spin_up: &SpinUp, built: &RigModel) -> Vec<Column> {
     columns::history(spin_up, built, None)
 }
 
 /// The results of a spin-up, without values.
-pub fn results(spin_up: &SpinUp, built: &Built) -> Vec<Quantity> {
+pub fn results(spin_up: &SpinUp, built: &RigModel) -> Vec<Quantity> {
     quantities::name(spin_up, built, None)
 }
 
 /// A spin-up at its start, to be driven from outside.
-pub fn simulation(spin_up: &SpinUp, built: &Built) -> Simulation {
+pub fn simulation(spin_up: &SpinUp, built: &RigModel) -> Simulation {
     let machine = built.machine.clone();
     let start = machine.start();
     let stepping = asked(spin_up, built).stepping(|| 0.0);
@@ -50,8 +50,8 @@ pub fn simulation(spin_up: &SpinUp, built: &Built) -> Simulation {
 }
 
 /// What decides the steps of a spin-up.
-fn asked<'a>(spin_up: &'a SpinUp, built: &Built) -> Asked<'a> {
-    Asked {
+fn asked<'a>(spin_up: &'a SpinUp, built: &RigModel) -> StepRequest<'a> {
+    StepRequest {
         run: &spin_up.run,
         known: built.machine.tangents(),
         quickest_mode: 0.0,
@@ -70,7 +70,7 @@ fn given(spin_up: &SpinUp) -> RunInput<'_> {
 }
 
 /// Runs a spin-up.
-pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &Built, options: &Options) -> Outcome {
+pub fn run(scenario: &Scenario, spin_up: &SpinUp, built: &RigModel, options: &Options) -> Outcome {
     let stepping = asked(spin_up, built).stepping(|| 0.0);
     let run = RigRun::of(built, given(spin_up), stepping, &[], options);
     let context = Context { spin_up, run };

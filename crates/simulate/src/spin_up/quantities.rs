@@ -1,7 +1,7 @@
 //! Every named result of a spin-up with its law, source and valid range.
 
 use crate::bearing::quantities::{BearingSetup, balls};
-use crate::rig::run::{Built, name_temperatures};
+use crate::rig::run::{RigModel, name_temperatures};
 use crate::spin_up::{Context, given};
 use crate::static_safety::{AT_THE_LOAD, no_safety, safety_under};
 use catalogue::geometry::digits;
@@ -27,7 +27,7 @@ const LOST_SPEED: f64 = 0.01;
 const LEAST_SPEED: f64 = 0.05;
 
 /// Names the results; without a run those of any.
-pub(crate) fn name(spin_up: &SpinUp, built: &Built, run: Option<&Context>) -> Vec<Quantity> {
+pub(crate) fn name(spin_up: &SpinUp, built: &RigModel, run: Option<&Context>) -> Vec<Quantity> {
     let mut list = List::default();
     motion(&mut list, spin_up, run);
     let bearing = BearingSetup {

@@ -15,7 +15,7 @@ use std::path::Path;
 
 /// A magnet with its controller, alike on both axes.
 #[derive(Deserialize, Clone)]
-pub(crate) struct Given {
+pub(crate) struct MagnetCase {
     pub(crate) actuator_node: usize,
     pub(crate) sensor_node: usize,
     ki: f64,
@@ -58,7 +58,7 @@ struct Plane {
 /// A rotor with magnets, and what unbalances it.
 pub(crate) struct Machine {
     pub(crate) rotor: Rotor,
-    pub(crate) magnets: Vec<Given>,
+    pub(crate) magnets: Vec<MagnetCase>,
     pub(crate) unbalance: Vec<Unbalance>,
 }
 

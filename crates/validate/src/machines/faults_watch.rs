@@ -7,7 +7,7 @@ use serde_json::Value;
 use solve::{Flow, Observer, Step};
 
 /// A row of the run.
-pub(super) struct Seen {
+pub(super) struct Row {
     pub places: Vec<Vec2<f64>>,
     pub currents: Vec<(f64, [f64; 2])>,
 }
@@ -15,7 +15,7 @@ pub(super) struct Seen {
 /// Rows and extremes of a run.
 pub(super) struct Watch {
     pub times: Vec<f64>,
-    pub rows: Vec<Seen>,
+    pub rows: Vec<Row>,
     pub peaks: Vec<f64>,
     pub largest: Vec<(f64, [f64; 2])>,
     /// Places of the stops among those watched.
@@ -86,7 +86,7 @@ impl Watch {
             .get(self.rows.len())
             .is_some_and(|own| (own - time).abs() < 1e-12)
         {
-            self.rows.push(Seen { places, currents });
+            self.rows.push(Row { places, currents });
         }
         self.before = Some((time, sizes));
     }

@@ -1,6 +1,6 @@
 //! A levitated rotor: what is found, and what is refused.
 
-use super::super::asked::Asked;
+use super::super::request::Request;
 use super::*;
 use outcome::{Quantity, Value};
 use problem::Code;
@@ -56,9 +56,9 @@ const PID: &str = "proportional = \"8000 A/m\"\nintegral = \"8e4 A/(m s)\"\nderi
 type Change = (&'static str, &'static str);
 
 /// The analysis of a file.
-fn asked(text: &str) -> Result<Asked, Box<Problem>> {
+fn asked(text: &str) -> Result<Request, Box<Problem>> {
     let scenario = Scenario::parse(text, "small.toml", &[], &BuiltIn)?;
-    Asked::of(scenario.rotor().expect("a rotor"))
+    Request::of(scenario.rotor().expect("a rotor"))
 }
 
 /// Their names and values.
@@ -67,7 +67,7 @@ fn values(all: Vec<Quantity>) -> Vec<(String, Value)> {
 }
 
 /// What is found of the closed loop of a file.
-fn looped(asked: &Asked) -> Vec<(String, Value)> {
+fn looped(asked: &Request) -> Vec<(String, Value)> {
     let mut list = List::default();
     name(&mut list, &asked.model, asked.levitated.as_ref());
     values(list.quantities)

@@ -16,8 +16,8 @@ mod in_space;
 pub(crate) mod results;
 
 use self::in_space::InSpace;
-use crate::rotor::asked::{Asked, Found};
 use crate::rotor::quantities::undamped;
+use crate::rotor::request::{Analyses, Request};
 use model::auxiliary_bearing::AuxiliaryBearingConstants;
 use nalgebra::DVector;
 use physics::magnet::Magnet;
@@ -34,7 +34,7 @@ use std::ops::Range;
 /// A rotor in the bottom of its auxiliary bearings.
 pub(crate) struct RollingModel {
     /// The rotor on what its bearings are to small motion.
-    pub asked: Box<Asked>,
+    pub asked: Box<Request>,
     pub bearings: Vec<RollingBearing>,
     /// The rotor at rest, its coordinates in x + jy, m.
     pub rest: DVector<C64>,
@@ -55,7 +55,7 @@ pub(crate) struct RollingBearing {
 
 /// What was found.
 pub(crate) struct RollingFound {
-    pub found: Found,
+    pub found: Analyses,
     pub bearings: Vec<BearingFound>,
     /// Least distance at each place with a clearance: at rest, or at a speed at which the linear answer holds.
     pub distances: Vec<Peak>,
@@ -225,7 +225,7 @@ impl RollingModel {
                 carry(&mut own.rotor, bearing, (places, place.on, down), &speeds);
             }
             Ok(Self {
-                asked: Box::new(Asked::of(&own).map_err(|own| own.found)?),
+                asked: Box::new(Request::of(&own).map_err(|own| own.found)?),
                 bearings,
                 rest,
                 down,

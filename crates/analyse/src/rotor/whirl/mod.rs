@@ -133,7 +133,7 @@ impl WhirlModel {
         let bearings = given.into_iter().zip(&nodes).map(bearing).collect();
         let failed = |error: RotorError| simulate::levitated::failed(&error.to_string());
         let matrices = Matrices::new(&free);
-        let small = full.len() <= super::asked::SMALL;
+        let small = full.len() <= super::request::SMALL;
         let basis = match small {
             true => full.clone(),
             false => {

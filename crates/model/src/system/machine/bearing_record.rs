@@ -14,15 +14,15 @@ use crate::auxiliary_bearing::probe::{
     LARGEST_OUTER_LOAD, LARGEST_POCKET_FORCE, LARGEST_SKIDS, MOUNT_FORCE, NORMAL_FORCE,
     PENETRATION, SLIP_SPEED,
 };
-use crate::bearing_heat::{Seen as WarmthSeen, Warmth};
+use crate::bearing_heat::{HeatInstant, Warmth};
 use crate::contact::ContactReaction;
 use crate::heats::HEATS;
 use crate::spatial::record::SpatialRecord;
-use crate::surface_heat::{Motions, Seen, SurfaceHeat};
-use crate::system::race_record::{RaceRecord, Seen as BallsSeen};
+use crate::surface_heat::{ContactStep, Motions, SurfaceHeat};
+use crate::system::race_record::{BearingInstant, RaceRecord};
 use crate::system::rig::Drive;
 use crate::system::rig::layout::DRIVE_HEAT;
-use crate::system::sampling::{Growth, Peak, Rise};
+use crate::system::sampling::{Growth, Peak, Rise, Turns};
 use number::Vec2;
 use solve::Step;
 use std::f64::consts::PI;
@@ -63,7 +63,7 @@ pub struct BearingRecord {
     /// What the parts of its mount besides spring and damper have done; none without such parts.
     pub mount_parts: Option<MountPeaks>,
     /// Turns of the rotor about the inner race while it is out of the middle half of its clearance.
-    pub whirl_turns: f64,
+    pub whirl_turns: Turns,
     /// Way of the rotor's geometric centre against that of the inner race.
     pub travel: Travel,
     /// ∫N dt of the normal force of rotor and race, N s.
@@ -171,7 +171,7 @@ impl BearingRecord {
             rotor_displacement: Peak::NONE,
             mount_displacement: Peak::NONE,
             mount_parts: (part.mount_parts.any()).then_some(MountPeaks::NONE),
-            whirl_turns: 0.0,
+            whirl_turns: Turns::default(),
             travel: Travel::default(),
             impulse: 0.0,
             turns: 0.0,
@@ -343,7 +343,7 @@ impl BearingRecord {
                 step.end_probe(at.probe(kind)),
             ]
         };
-        let seen = Seen {
+        let seen = ContactStep {
             times: [step.start, step.end],
             forces: both(NORMAL_FORCE),
             slips: both(SLIP_SPEED),
@@ -393,7 +393,7 @@ impl BearingRecord {
             record.look(own, time, &self.at.motion(state), &state[self.at.own()]);
         }
         if let Some(races) = &mut self.races {
-            races.look(&BallsSeen {
+            races.look(&BearingInstant {
                 bearing: &machine.constants.bearings[self.bearing].bearing,
                 time,
                 motion: self.at.motion(state),
@@ -415,7 +415,7 @@ impl BearingRecord {
             return;
         };
         let first = self.at.own().start;
-        let seen = WarmthSeen {
+        let seen = HeatInstant {
             time,
             heats: heats_of(machine, self.first_heat, state),
             spin: state(self.at.inner.spin()),
@@ -441,10 +441,10 @@ impl BearingRecord {
         let rolls = step.end_probe(at.probe(NORMAL_FORCE)) > 0.0
             && slow(slip, spin * part.contact.bore_radius)
             && cage_rolls
-            && (self.whirl_turns - self.whirled).abs() < WHIRLING_TURNS;
+            && (self.whirl_turns.net - self.whirled).abs() < WHIRLING_TURNS;
         match rolls {
             true => self.rolled += cage.abs() * (step.end - step.start) / (2.0 * PI),
-            false => (self.rolled, self.whirled) = (0.0, self.whirl_turns),
+            false => (self.rolled, self.whirled) = (0.0, self.whirl_turns.net),
         }
         // a bushing does not turn
         part.is_bushing() || self.rolled >= ROLLING_TURNS
@@ -465,7 +465,7 @@ impl BearingRecord {
         let angle = offset.y.atan2(offset.x);
         if let Some(last) = self.whirl_angle {
             let turn = (angle - last) / (2.0 * PI);
-            self.whirl_turns += turn - turn.round();
+            self.whirl_turns.add(turn - turn.round());
         }
         self.whirl_angle = Some(angle);
     }

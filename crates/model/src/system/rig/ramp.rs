@@ -112,7 +112,7 @@ pub fn engagement_ramp(
     let guess = 0.5 * inertia * acceleration * acceleration / speed;
     let mut rate = guess;
     let mut last: Option<(f64, f64)> = None;
-    let mut seen = Seen::default();
+    let mut seen = Tried::default();
     for run in 0..RUNS {
         let Some(peak) = peak_acceleration(&rig, rate, end)? else {
             if seen.locked.is_empty() && run + 1 >= TRIES {
@@ -172,14 +172,14 @@ pub fn engagement_ramp(
 
 /// What a search has seen.
 #[derive(Default)]
-struct Seen {
+struct Tried {
     /// Largest rate with which the clutch never locked, N m/s; 0 where there was none.
     loose: f64,
     /// Rates with which it did, N m/s, and the largest acceleration of each, rad/s².
     locked: Vec<(f64, f64)>,
 }
 
-impl Seen {
+impl Tried {
     fn slowest(&self) -> Option<(f64, f64)> {
         let rates = self.locked.iter().copied();
         rates.min_by(|a, b| a.0.total_cmp(&b.0))

@@ -24,7 +24,7 @@ const LONGEST_DESCRIPTION: usize = 1024;
 
 /// What a file holds.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct Contents {
     pub channels: Vec<Channel>,
     pub lines: Vec<Line>,
     pub datasets: Vec<Dataset>,
@@ -39,8 +39,8 @@ pub(super) struct Found {
 pub(super) fn survey<S: Read + Seek>(
     storage: &mut Storage<S>,
     matlab: bool,
-) -> Result<Found, FileError> {
-    let mut found = Found::default();
+) -> Result<Contents, FileError> {
+    let mut found = Contents::default();
     let length = storage.source.length();
     if let Some(end) = storage.end.filter(|&end| end > length) {
         let text = format!("the file was cut off: it states {end} bytes, {length} are there");
@@ -149,7 +149,7 @@ fn left_out(error: &FileError) -> String {
     format!("{}: {}; it is left out", error.place, error.found)
 }
 
-impl Found {
+impl Contents {
     fn note(&mut self, name: &str, text: impl Into<String>) {
         self.notes.push(Note::of(name.trim_end_matches('/'), text));
     }

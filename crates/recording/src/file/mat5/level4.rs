@@ -6,7 +6,7 @@
 
 use std::io::{Read, Seek};
 
-use super::survey::Found;
+use super::survey::Contents;
 use super::values::{Stored, Values};
 use crate::FileError;
 use crate::file::number;
@@ -79,8 +79,8 @@ pub(super) fn big_endian(head: &[u8]) -> Option<bool> {
 pub(super) fn survey<S: Read + Seek>(
     source: &mut Source<S>,
     big_endian: bool,
-) -> Result<Found, FileError> {
-    let mut found = Found::default();
+) -> Result<Contents, FileError> {
+    let mut found = Contents::default();
     let mut at = 0;
     while at < source.length() {
         let mut bytes = [0; 20];

@@ -22,7 +22,7 @@ const LONGEST: u64 = 1 << 16;
 
 /// What a file holds.
 #[derive(Default)]
-pub(super) struct Found {
+pub(super) struct Contents {
     pub channels: Vec<Channel>,
     pub values: Vec<Values>,
     pub properties: Vec<Property>,
@@ -33,8 +33,8 @@ pub(super) struct Found {
 pub(super) fn survey<S: Read + Seek>(
     source: &mut Source<S>,
     big_endian: bool,
-) -> Result<Found, FileError> {
-    let mut found = Found::default();
+) -> Result<Contents, FileError> {
+    let mut found = Contents::default();
     let mut at = 128;
     while at < source.length() {
         let mut head = [0; 8];
@@ -143,7 +143,7 @@ struct Walk<'a, S> {
     end: u64,
     packed: bool,
     stream: Stream,
-    found: &'a mut Found,
+    found: &'a mut Contents,
 }
 
 type Damage<T> = Result<Option<T>, FileError>;
@@ -393,7 +393,7 @@ impl<S: Read + Seek> Walk<'_, S> {
     }
 }
 
-impl Found {
+impl Contents {
     /// Channels of an array of numbers, of which `there` are in the file from `values` on: its columns, or its rows where they are
     /// longer.
     pub(super) fn matrix(&mut self, name: &str, sizes: &[u64], there: u64, values: &Values) {

@@ -10,7 +10,7 @@
 //!
 //! Source: batch means, as in J. Banks et al., Discrete-Event System Simulation, chapter on output analysis; book/src/theory/heat.md.
 
-use crate::coast_down::build::Built;
+use crate::coast_down::build::CoastDownModel;
 use crate::coast_down::rows::BallsSeen;
 use std::sync::Arc;
 use thermal::bearing_network::{Landing, NODES};
@@ -118,7 +118,11 @@ pub(super) struct Observation {
 
 impl Observation {
     /// Means of these batches, at least four, and the balls of the interval with the last of them.
-    pub fn of(built: &Built, batches: &[&Batch], balls: &[Option<Arc<BallsSeen>>]) -> Self {
+    pub fn of(
+        built: &CoastDownModel,
+        batches: &[&Batch],
+        balls: &[Option<Arc<BallsSeen>>],
+    ) -> Self {
         let mean = mean(batches);
         let (followed, beside) = beside_laws(built, &mean);
         let ratios: Vec<f64> = batches.iter().map(|batch| batch.ratio()).collect();
@@ -258,7 +262,7 @@ fn mean(batches: &[&Batch]) -> Batch {
 }
 
 /// What mean powers say beside the laws at their speed and temperatures, and what heats the nodes besides, W.
-fn beside_laws(built: &Built, mean: &Batch) -> (Followed, Vec<f64>) {
+fn beside_laws(built: &CoastDownModel, mean: &Batch) -> (Followed, Vec<f64>) {
     let mut beside = Vec::new();
     let mut bearings = Vec::new();
     for (part, own) in built.parts.iter().zip(&mean.bearings) {

@@ -13,7 +13,7 @@
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::coast_down::build::{Built, ICE_POINT, Part};
+use crate::coast_down::build::{CoastDownModel, ICE_POINT, Part};
 use crate::coast_down::rows::BallsSeen;
 use crate::drop::context::Context;
 use crate::drop::multirate::batch::{Batch, Bearing, Interval};
@@ -173,7 +173,11 @@ impl<'a> Motion<'a> {
     }
 
     /// One interval at the speed and the temperatures that the coast-down has reached; of what so many batches settle, no largest value is kept.
-    pub fn interval(&mut self, built: &Built, settling: usize) -> Result<Interval, Failure> {
+    pub fn interval(
+        &mut self,
+        built: &CoastDownModel,
+        settling: usize,
+    ) -> Result<Interval, Failure> {
         let mut record = self.condition(built)?;
         self.turn_at(built.start.speed);
         let span = self.span(built.start.speed);
@@ -198,7 +202,7 @@ impl<'a> Motion<'a> {
     /// these limits, N.
     pub fn sweep(
         &mut self,
-        built: &Built,
+        built: &CoastDownModel,
         (jumps, to): (usize, f64),
         limits: &[f64],
     ) -> Result<Interval, Failure> {
@@ -221,7 +225,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The machine at the speed and the temperatures of a coast-down, and a record of what follows.
-    fn condition(&mut self, built: &Built) -> Result<Record, Failure> {
+    fn condition(&mut self, built: &CoastDownModel) -> Result<Record, Failure> {
         let start = &built.start;
         let mut constants = match self.warm(built)? {
             Some(machine) => machine.constants.clone(),
@@ -241,7 +245,7 @@ impl<'a> Motion<'a> {
     }
 
     /// A record of what follows, with surfaces as hot as they are.
-    fn record(&mut self, built: &Built) -> Record {
+    fn record(&mut self, built: &CoastDownModel) -> Record {
         let machine = &self.machine;
         let mut record = Record::new(machine, f64::INFINITY, f64::INFINITY, false);
         let layout = machine.layout();
@@ -263,7 +267,7 @@ impl<'a> Motion<'a> {
     }
 
     /// The machine with oil, clearances and friction as warm as the coast-down has made them; none where nothing of it follows.
-    fn warm(&self, built: &Built) -> Result<Option<Box<RotorMachine>>, Failure> {
+    fn warm(&self, built: &CoastDownModel) -> Result<Option<Box<RotorMachine>>, Failure> {
         let machine = self.context.setup.machine;
         let Some(following) = &self.following else {
             return Ok(None);
@@ -301,7 +305,12 @@ impl<'a> Motion<'a> {
     }
 
     /// The motion goes on for a time, s.
-    fn batch(&mut self, built: &Built, record: &mut Record, span: f64) -> Result<Batch, Failure> {
+    fn batch(
+        &mut self,
+        built: &CoastDownModel,
+        record: &mut Record,
+        span: f64,
+    ) -> Result<Batch, Failure> {
         let marks: Vec<Mark> = record.bearings.iter().map(Mark::of).collect();
         for own in &mut record.bearings {
             own.contacts.clear();
@@ -442,7 +451,7 @@ impl Mark {
         let slid = heat.map_or_else(Default::default, |heat| heat.slid);
         Mark {
             impulse: record.impulse,
-            whirl_turns: record.whirl_turns,
+            whirl_turns: record.whirl_turns.net,
             distance: heat.map_or(0.0, |heat| heat.distance),
             rubbed: heat.map_or(0.0, |heat| heat.rubbed),
             slid: [slid.impulse, slid.conducted, slid.uneven],
@@ -452,7 +461,7 @@ impl Mark {
 
 /// A batch of the motion, from a state to where it is now.
 struct Piece<'a> {
-    built: &'a Built,
+    built: &'a CoastDownModel,
     motion: &'a Motion<'a>,
     before: &'a [f64],
     span: f64,

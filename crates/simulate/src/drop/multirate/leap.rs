@@ -1,6 +1,6 @@
 //! How far a leap of a coast-down goes.
 
-use crate::coast_down::build::Built;
+use crate::coast_down::build::CoastDownModel;
 use crate::drop::context::Context;
 use crate::drop::multirate::batch::Observation;
 use crate::drop::multirate::interval::Motion;
@@ -139,14 +139,14 @@ pub(super) fn towards(ahead: f64) -> f64 {
 
 /// Loads at rest of the bearings, N; of one that carries hardly anything, and so never rests, that of the mean bearing. Weight along the shaft counts
 /// in that mean.
-pub(super) fn at_rest(built: &Built) -> impl Iterator<Item = f64> {
+pub(super) fn at_rest(built: &CoastDownModel) -> impl Iterator<Item = f64> {
     let loads = || built.parts.iter().map(|part| part.warm.radial_load);
     let mean = (loads().sum::<f64>() + built.thrust) / built.parts.len() as f64;
     loads().map(move |load| load.max(mean))
 }
 
 /// The largest contact force over the load at rest, of all bearings; on faces over the weight along the shaft.
-pub(super) fn pressed(built: &Built, now: &Observation) -> f64 {
+pub(super) fn pressed(built: &CoastDownModel, now: &Observation) -> f64 {
     let bearings = now.mean.bearings.iter().zip(at_rest(built));
     bearings
         .map(|(own, load)| (own.peak_force / load).max(own.peak_thrust / load.max(built.thrust)))
@@ -154,7 +154,7 @@ pub(super) fn pressed(built: &Built, now: &Observation) -> f64 {
 }
 
 /// Contact forces of a motion from which on it is another one, N.
-pub(super) fn hardest(built: &Built, now: &Observation) -> Vec<f64> {
+pub(super) fn hardest(built: &CoastDownModel, now: &Observation) -> Vec<f64> {
     let bearings = now.mean.bearings.iter().zip(at_rest(built));
     bearings
         .map(|(own, load)| HARDER * own.peak_force.max(load))
@@ -162,7 +162,7 @@ pub(super) fn hardest(built: &Built, now: &Observation) -> Vec<f64> {
 }
 
 /// How far losses are from those of rolling, over them: from what laws say; where no law knows a bearing, the share of friction of rotor and races.
-pub(super) fn beside(built: &Built, now: &Observation) -> f64 {
+pub(super) fn beside(built: &CoastDownModel, now: &Observation) -> f64 {
     match built.by_laws() {
         true => now.ratio() - 1.0,
         false => now.mean.rubs(),
@@ -170,7 +170,7 @@ pub(super) fn beside(built: &Built, now: &Observation) -> f64 {
 }
 
 /// Whether a rotor rolls under its weight, which keeps one from whirling that is not vertical.
-pub(super) fn rolls(built: &Built, now: &Observation) -> bool {
+pub(super) fn rolls(built: &CoastDownModel, now: &Observation) -> bool {
     let mut bearings = now.mean.bearings.iter();
     let upright = built.parts.iter().all(|part| part.warm.radial_load == 0.0);
     bearings.all(|own| upright || own.whirl.abs() < 1.0)
@@ -192,7 +192,7 @@ pub(super) struct Limits {
 }
 
 impl Limits {
-    pub fn of(built: &Built, now: &Observation) -> Self {
+    pub fn of(built: &CoastDownModel, now: &Observation) -> Self {
         let start = &built.start;
         let braked = built
             .losses(start.time, start.speed)

@@ -8,9 +8,9 @@
 //!
 //! Source: derived; book/src/theory/heat.md.
 
-use crate::coast_down::build::{Built, Motion};
-use crate::coast_down::ran::ran;
+use crate::coast_down::build::{CoastDownModel, Motion};
 use crate::coast_down::rows::{End, Row};
+use crate::coast_down::run::run;
 use crate::drop::multirate::batch::Observation;
 use crate::drop::multirate::interval::Failure;
 use std::sync::atomic::AtomicBool;
@@ -61,7 +61,7 @@ impl Rubbed {
 
 /// One step from the state of a coast-down to a speed; it starts there afterwards.
 pub(super) fn step(
-    built: &mut Built,
+    built: &mut CoastDownModel,
     from: &Observation,
     ahead: Ahead,
     speed: f64,
@@ -76,7 +76,7 @@ pub(super) fn step(
     let no_network = |_| "the network of a bearing has no finite values";
     let mut stretch = built.clone();
     stretch.end.stop_speed = speed.max(built.end.stop_speed);
-    let mut found = ran(&stretch, interrupt).map_err(no_network)?;
+    let mut found = run(&stretch, interrupt).map_err(no_network)?;
     let is_far = |row: &&Row| {
         let nodes = row.temperatures.iter().zip(&built.start.temperatures);
         nodes.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max) > LARGEST_CHANGE
@@ -86,7 +86,7 @@ pub(super) fn step(
     let mut nearer = stretch.clone();
     if let (Ahead::Unknown, Some(far)) = (ahead, far) {
         nearer.end.stop_speed = far.max(built.end.stop_speed);
-        found = ran(&nearer, interrupt).map_err(no_network)?;
+        found = run(&nearer, interrupt).map_err(no_network)?;
     }
     let end = match found.free.end {
         End::Stands | End::Reached => None,
@@ -130,7 +130,7 @@ fn between(from: &Observation, to: &Observation, predicts: bool) -> Motion {
 
 /// A rotor that goes on rolling to its standstill: what an interval found beside the laws fades with the speed. The moment of a bearing that no law
 /// knows stays as it is.
-pub(super) fn fading(built: &Built, from: &Observation) -> Motion {
+pub(super) fn fading(built: &CoastDownModel, from: &Observation) -> Motion {
     let mut at_rest = from.clone();
     at_rest.followed.speed = built.end.stop_speed.min(0.5 * from.followed.speed);
     at_rest.followed.rotor = 0.0;

@@ -47,9 +47,9 @@ pub(super) mod results;
 mod series;
 pub(super) mod warnings;
 
-use crate::coast_down::build::{Built, Part};
-use crate::coast_down::ran::ran;
+use crate::coast_down::build::{CoastDownModel, Part};
 use crate::coast_down::rows::{End, Row};
+use crate::coast_down::run::run;
 use crate::drop::context::Context;
 use crate::following::friction;
 use batch::{Batch, Interval, Observation};
@@ -69,7 +69,7 @@ const LONGEST_ESTIMATE: usize = 4;
 /// A leap that is not closed yet.
 struct Leap<'a> {
     /// The coast-down and the motion before it, and what was known then.
-    before: Built,
+    before: CoastDownModel,
     motion: Motion<'a>,
     from: Observation,
     batches: Vec<Batch>,
@@ -113,7 +113,7 @@ enum Closed {
 /// Follows a coast-down from the end of a drop; `built` starts where it goes on by laws afterwards, or where it ends.
 pub(super) fn follow(
     context: &Context,
-    built: &mut Built,
+    built: &mut CoastDownModel,
     interrupt: &AtomicBool,
     progress: &dyn Fn(f64),
 ) -> IntervalSeries {
@@ -152,7 +152,7 @@ impl<'a> Multirate<'a> {
     /// One interval, and the leap behind it.
     fn cycle(
         &mut self,
-        built: &mut Built,
+        built: &mut CoastDownModel,
         open: &mut Option<Leap<'a>>,
     ) -> Result<Option<Leave>, Failure> {
         if self.interrupt.load(Ordering::Relaxed) {
@@ -212,7 +212,11 @@ impl<'a> Multirate<'a> {
     }
 
     /// Speed, time and temperatures go on by an interval; why the coast-down ends in it.
-    fn follow(&mut self, built: &mut Built, mean: &Observation) -> Result<Option<End>, Failure> {
+    fn follow(
+        &mut self,
+        built: &mut CoastDownModel,
+        mean: &Observation,
+    ) -> Result<Option<End>, Failure> {
         let reached = self.motion.speed();
         if reached >= built.start.speed {
             return Ok(None);
@@ -225,7 +229,7 @@ impl<'a> Multirate<'a> {
     /// Ends an interval from one of whose batches on an unbalance or a load has come: what was known before says nothing of what follows.
     fn change(
         &mut self,
-        built: &mut Built,
+        built: &mut CoastDownModel,
         interval: &Interval,
         first: usize,
         open: &mut Option<Leap<'a>>,
@@ -248,7 +252,7 @@ impl<'a> Multirate<'a> {
     /// The next leap, where it is longer than the interval.
     fn leap(
         &mut self,
-        built: &mut Built,
+        built: &mut CoastDownModel,
         now: &Observation,
         span: f64,
         open: &mut Option<Leap<'a>>,
@@ -307,7 +311,7 @@ impl<'a> Multirate<'a> {
     }
 
     /// Ends a leap that no interval closes, with what was known before it.
-    fn end_leap(&mut self, built: &mut Built, leap: Leap<'a>) -> Result<(), Failure> {
+    fn end_leap(&mut self, built: &mut CoastDownModel, leap: Leap<'a>) -> Result<(), Failure> {
         let mut again = leap.before;
         let known = Ahead::Followed(&leap.from);
         let taken = step(
@@ -325,7 +329,7 @@ impl<'a> Multirate<'a> {
     /// Closes a leap: its step again, with both ends known.
     fn close(
         &mut self,
-        built: &mut Built,
+        built: &mut CoastDownModel,
         leap: Leap<'a>,
         now: &Observation,
     ) -> Result<Closed, Failure> {
@@ -379,7 +383,11 @@ impl<'a> Multirate<'a> {
 
     /// Whether laws describe the rest: the rotor rolls, unbalance lifts nothing, and friction transmits twice what the bearings brake with. Where no law
     /// knows a bearing, its moment is held from a low speed on.
-    fn rolls_to_the_end(&mut self, built: &mut Built, now: &Observation) -> Result<bool, Failure> {
+    fn rolls_to_the_end(
+        &mut self,
+        built: &mut CoastDownModel,
+        now: &Observation,
+    ) -> Result<bool, Failure> {
         let mut calm = built.start.speed < leap::calm(&self.motion);
         calm &= built.by_laws() || built.start.speed <= leap::HELD * self.first;
         if !calm || self.motion.changes_below() > 0.0 || !leap::rolls(built, now) {
@@ -387,7 +395,7 @@ impl<'a> Multirate<'a> {
         }
         let mut rest = built.clone();
         rest.motion = Some(fading(built, now));
-        let course = ran(&rest, self.interrupt).map_err(|_| "no network")?;
+        let course = run(&rest, self.interrupt).map_err(|_| "no network")?;
         let rows = course.free.rows.iter().skip(built.start.rows.len());
         let slips = |row: &Row| {
             let mut parts = built.parts.iter().enumerate();

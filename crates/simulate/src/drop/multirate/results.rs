@@ -6,11 +6,11 @@
 use crate::bearing::races::count_coast_down;
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::bearing::warm::Heated;
-use crate::coast_down::build::{Built, Part, Start, part};
+use crate::coast_down::build::{CoastDownModel, Part, Start, part};
 use crate::coast_down::measured::measured;
 use crate::coast_down::passages::limits;
-use crate::coast_down::ran::{Ran, ran};
 use crate::coast_down::rows::Row;
+use crate::coast_down::run::{CoastDownRun, run};
 use crate::coast_down::{self, history, quantities as of_coast_down};
 use crate::drop::context::{Context, Setup};
 use crate::drop::multirate::series::{Place, SeenBearing, Stretch};
@@ -32,9 +32,6 @@ use scenario::{AuxiliaryBearing, CoastDownEnd, Warm};
 use std::sync::atomic::AtomicBool;
 use thermal::held::Held;
 use thermal::warm_machine::RotorDrag;
-
-/// A bearing as its file gives it.
-type Given<'a> = &'a AuxiliaryBearing;
 
 /// Before the names of the results of a coast-down.
 const COAST_DOWN: &str = "coast_down";
@@ -76,7 +73,7 @@ pub(crate) fn after(
     };
     // what a coast-down finds has its names, also where there is none
     let at_once = AtomicBool::new(!goes_on);
-    let found = match ran(&built, if goes_on { interrupt } else { &at_once }) {
+    let found = match run(&built, if goes_on { interrupt } else { &at_once }) {
         Ok(found) => found,
         Err(problem) => {
             return Some(After::none(
@@ -124,7 +121,7 @@ fn reached(context: &Context, rows: &[Row]) -> ([f64; MOST_SPEEDS], f64) {
 }
 
 /// How it was followed, in words.
-fn words(context: &Context, built: &Built, series: &IntervalSeries) -> String {
+fn words(context: &Context, built: &CoastDownModel, series: &IntervalSeries) -> String {
     let first = format!(
         "After {:.4} s of the drop {} ball-by-ball intervals followed, with quasi-steady steps between them.",
         context.finished.ending.time, series.intervals
@@ -228,7 +225,7 @@ pub(super) fn parts(setup: Setup, forces: &[(usize, Vec2<f64>)]) -> Result<Vec<P
 }
 
 /// The machine of the coast-down, from the state in which the drop ended.
-fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, String> {
+fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<CoastDownModel, String> {
     let (drop, machine) = (context.setup.drop(), context.setup.machine);
     let ending = &context.finished.ending;
     let rotor = &machine.constants.rotor;
@@ -259,7 +256,7 @@ fn built(context: &Context, end: &CoastDownEnd, goes_on: bool) -> Result<Built, 
         false => (drop.rotor.speed.abs(), drop.body.polar_inertia),
     };
     let bearings = parts.len();
-    Ok(Built {
+    Ok(CoastDownModel {
         parts,
         inertia,
         thrust: drop.body.mass * drop.gravity.axial.abs(),
@@ -287,7 +284,7 @@ pub(crate) fn results(setup: Setup) -> Vec<Quantity> {
 }
 
 /// The results under their names: those of the coast-down, and its course over time.
-fn named(setup: Setup, parts: &[Part], run: Option<(&Ran, &Followed)>) -> Vec<Quantity> {
+fn named(setup: Setup, parts: &[Part], run: Option<(&CoastDownRun, &Followed)>) -> Vec<Quantity> {
     let mut list = List::default();
     let went = run.map(|(_, went)| went);
     change(&mut list, &(), went);
@@ -376,7 +373,7 @@ results! {
         "largest_rotor_displacement": number "m", PEAK, "largest displacement of the rotor in the intervals" => run.seen(*k, |seen| seen.rotor_displacement);
         "largest_mount_displacement": number "m", PEAK, "largest displacement of the mount in the intervals" => run.seen(*k, |seen| seen.mount_displacement);
     }
-    fn patch(of: &(usize, Given), run: &Followed) {
+    fn patch(of: &(usize, &AuxiliaryBearing), run: &Followed) {
         "contact_temperature_rise": number "K", PATCH, "largest rise of the contact patch in the intervals", unless no_width(of.1) => run.seen(of.0, |seen| seen.rise.value);
         "contact_temperature_index": number "1", PATCH_INDEX, "this rise over that which changes steel" in worst "contact of rotor and race too hot", unless no_width(of.1) => {
             run.seen(of.0, |seen| seen.rise.value / STEEL_CHANGES)

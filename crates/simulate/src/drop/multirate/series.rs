@@ -1,6 +1,6 @@
 //! What the intervals of a coast-down have seen.
 
-use crate::coast_down::build::Built;
+use crate::coast_down::build::CoastDownModel;
 use crate::coast_down::rows::End;
 use crate::drop::multirate::batch::{Interval, Observation};
 use crate::drop::multirate::leap::{HARDER, at_rest, beside, pressed, rolls};
@@ -16,7 +16,7 @@ pub(super) struct Place {
 }
 
 impl Place {
-    pub fn of(built: &Built) -> Self {
+    pub fn of(built: &CoastDownModel) -> Self {
         Place {
             time: built.start.time,
             speed: built.start.speed,
@@ -80,7 +80,7 @@ impl Stretch {
         self.pressed > HARDER
     }
     /// In words.
-    pub fn words(&self, built: &Built) -> String {
+    pub fn words(&self, built: &CoastDownModel) -> String {
         let why = match self.lifts() {
             true => format!(
                 "contact force up to {:.0} N, {:.0} N at rest",
@@ -131,7 +131,7 @@ impl IntervalSeries {
     /// An interval at the present speed.
     pub(super) fn saw(
         &mut self,
-        built: &Built,
+        built: &CoastDownModel,
         now: &Observation,
         interval: &Interval,
         settling: usize,
@@ -188,12 +188,12 @@ impl IntervalSeries {
     }
 
     /// The way to an interval.
-    pub(super) fn swept(&mut self, built: &Built, interval: &Interval) {
+    pub(super) fn swept(&mut self, built: &CoastDownModel, interval: &Interval) {
         self.largest(built, interval, 0);
     }
 
     /// The largest of all batches but the first, which settle.
-    fn largest(&mut self, built: &Built, interval: &Interval, settling: usize) {
+    fn largest(&mut self, built: &CoastDownModel, interval: &Interval, settling: usize) {
         let at = Place::of(built);
         self.bearings
             .resize_with(built.parts.len(), Default::default);
@@ -232,7 +232,7 @@ impl IntervalSeries {
     }
 
     /// Where it ends.
-    pub(super) fn ends(&mut self, built: &Built) {
+    pub(super) fn ends(&mut self, built: &CoastDownModel) {
         let at = Place::of(built);
         if let Some(open) = self.open() {
             open.to = at;

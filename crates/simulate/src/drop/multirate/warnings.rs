@@ -3,8 +3,8 @@
 use crate::bearing::severity::STEEL_CHANGES;
 use crate::bearing::warning_table::HeatWarning;
 use crate::coast_down::build::Part;
-use crate::coast_down::ran::Ran;
 use crate::coast_down::rows::Row;
+use crate::coast_down::run::CoastDownRun;
 use crate::coast_down::warnings;
 use crate::drop::context::Context;
 use crate::drop::multirate::IntervalSeries;
@@ -21,7 +21,7 @@ const LAGS: f64 = 0.9;
 const STANDS: f64 = 0.01;
 
 /// What intervals say, the most severe first.
-pub(super) fn of(context: &Context, found: &Ran, series: &IntervalSeries) -> Vec<Warning> {
+pub(super) fn of(context: &Context, found: &CoastDownRun, series: &IntervalSeries) -> Vec<Warning> {
     let parts = || context.setup.parts().enumerate();
     let mut list: Vec<Warning> = ends_early(context, series).into_iter().collect();
     list.extend(whirls(series));
@@ -81,7 +81,7 @@ const STEPS: i32 = 256;
 
 /// A moment that is held to the standstill: for how long, and for how much longer the rotor would turn if it fell further as it did on the last third of its
 /// speed until there, M = M₁ (Ω/Ω₁)^p, beside what else brakes.
-fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
+fn holds(found: &CoastDownRun, series: &IntervalSeries) -> Option<Warning> {
     let place = series.held?;
     let of_row = |row: &Row| (row.speed, row.moments[0] + row.moments[1]);
     let mut rows = found.free.rows.iter().rev();
@@ -109,7 +109,7 @@ fn holds(found: &Ran, series: &IntervalSeries) -> Option<Warning> {
 }
 
 /// A preload that unequal temperatures change by more than a fifth.
-fn presses(context: &Context, found: &Ran, bearing: usize) -> Option<Warning> {
+fn presses(context: &Context, found: &CoastDownRun, bearing: usize) -> Option<Warning> {
     let heated = context.setup.heated(bearing)?;
     let [least, most] = heated.preloads(found.temperatures(bearing))?;
     let mounted = heated.bearing.axial_preload;
@@ -124,7 +124,7 @@ fn presses(context: &Context, found: &Ran, bearing: usize) -> Option<Warning> {
 /// A bearing that the rotor hits harder than in the drop.
 fn hits_harder(
     context: &Context,
-    found: &Ran,
+    found: &CoastDownRun,
     series: &IntervalSeries,
     bearing: usize,
     name: &str,
@@ -160,7 +160,7 @@ fn gets_hot(series: &IntervalSeries, bearing: usize, name: &str) -> Option<Warni
 }
 
 /// How long and how far the rotor slid on its races.
-fn slid(context: &Context, found: &Ran, series: &IntervalSeries) -> Option<Warning> {
+fn slid(context: &Context, found: &CoastDownRun, series: &IntervalSeries) -> Option<Warning> {
     let slides = |heats: f64, energy: f64| heats > SLIDES * energy;
     let stretches: Vec<_> = (series.stretches.iter())
         .filter(|own| {

@@ -3,7 +3,7 @@
 use crate::identify::coast_down::{coasted, largest};
 use crate::identify::consequence::{false_reading, other_cause, rolls, slip_is_open, slips};
 use crate::identify::notes::{IdentifyWarning, grouped, noted, of_test};
-use crate::identify::read::{Asked, Test};
+use crate::identify::read::{Request, Test};
 use crate::interruptible::{INTERRUPTED, interruptible};
 use crate::signals;
 use identify::coasting::Windage;
@@ -30,7 +30,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 const ANALYSED: f64 = 0.95;
 
 /// One test with what its signals hold and what they tell.
-pub(crate) struct TestFound {
+pub(crate) struct TestEstimate {
     /// Name for people.
     pub name: String,
     /// The test as the estimators take it.
@@ -53,7 +53,7 @@ pub(crate) struct TestFound {
     pub false_reading: Option<String>,
 }
 
-impl TestFound {
+impl TestEstimate {
     /// What shows that the torque does not come to the steady moment: the lubricant or the sensor was in another state than in the
     /// slow tests, and what is left of t_O - M is not F alone. None where it comes there, or where that is not known.
     pub fn off_the_moment(&self) -> Option<String> {
@@ -93,7 +93,7 @@ impl TestFound {
 }
 
 /// Everything that was found.
-pub(crate) struct Found {
+pub(crate) struct Estimate {
     /// Balls and cage.
     pub set: RollingSet<f64>,
     /// The slow tests.
@@ -103,7 +103,7 @@ pub(crate) struct Found {
     /// What was taken out of slow tests without torque beside the bearing, where that is known.
     pub windage: Option<Windage>,
     /// Tests with acceleration.
-    pub tests: Vec<TestFound>,
+    pub tests: Vec<TestEstimate>,
     /// F over speed and acceleration.
     pub map: Result<LossMap, String>,
     /// Which explanation the data support.
@@ -120,9 +120,9 @@ pub(crate) struct Found {
     pub interrupted: bool,
 }
 
-impl Found {
+impl Estimate {
     /// Runs all estimators.
-    pub fn of(asked: &Asked, options: &Options) -> Found {
+    pub fn of(asked: &Request, options: &Options) -> Estimate {
         let wish = asked.identify;
         let set = rolling_set(asked);
         let mut of_signals = Vec::new();
@@ -205,7 +205,7 @@ impl Found {
         };
         let curve = moment.as_ref().map(|moment| &moment.curve);
         let no_moment = || "the steady moment is not known".to_string();
-        let mut tests: Vec<TestFound> = (tests.into_iter())
+        let mut tests: Vec<TestEstimate> = (tests.into_iter())
             .map(|(test, peak_acceleration)| {
                 let (own, moment) = (test.clone(), curve.ok().cloned());
                 let parts = interruptible(interrupt, move || {
@@ -225,7 +225,7 @@ impl Found {
                         Err(why),
                     )
                 });
-                TestFound {
+                TestEstimate {
                     name: test.name.clone(),
                     peak_acceleration,
                     loss,
@@ -336,7 +336,7 @@ impl Found {
             notes.map(|note| of_test(remark(note), &test.name))
         }));
         lines.append(&mut of_signals);
-        Found {
+        Estimate {
             set,
             coast_downs,
             moment,
@@ -379,7 +379,7 @@ fn all_unused<T>(found: &[T], asked: &[Test], unusable: &[(String, String)]) -> 
 }
 
 /// Masses and radii of balls and cage.
-pub(super) fn rolling_set(asked: &Asked) -> RollingSet<f64> {
+pub(super) fn rolling_set(asked: &Request) -> RollingSet<f64> {
     let bearing = asked.identify;
     let ball = (bearing.ball_mass)
         .unwrap_or_else(|| bearing.ball_material.ball_mass(bearing.ball_diameter));
@@ -434,7 +434,7 @@ fn measured(
 }
 
 fn map(
-    tests: &[TestFound],
+    tests: &[TestEstimate],
     curve: Option<&identify::SteadyMoment>,
     set: &RollingSet<f64>,
     settings: &LossSettings,
@@ -442,7 +442,7 @@ fn map(
 ) -> Result<LossMap, String> {
     let curve = curve.ok_or_else(|| "the steady moment is not known".to_string())?;
     // one map of speed and acceleration cannot hold what changes with time besides
-    if let Some(why) = tests.iter().find_map(TestFound::withheld) {
+    if let Some(why) = tests.iter().find_map(TestEstimate::withheld) {
         return Err(format!("{why}, so that what is left is not F alone"));
     }
     let pairs: Vec<(Measurement, Loss)> = (tests.iter())
@@ -460,7 +460,7 @@ fn map(
 }
 
 fn doubted(
-    asked: &Asked,
+    asked: &Request,
     tests: &[&Measurement],
     curve: Option<&identify::SteadyMoment>,
     set: &RollingSet<f64>,

@@ -11,7 +11,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 /// Channels that were read, and what is asked of them.
-pub struct Asked {
+pub struct Request {
     pub(crate) signals: Signals,
     pub(crate) listed: Vec<Listed>,
     pub(crate) notes: Vec<String>,
@@ -22,7 +22,7 @@ pub struct Asked {
     pub(crate) temperature: Option<Series>,
     pub(crate) vibration: Option<Series>,
     /// A coast-down without the bearing.
-    pub windage: Option<Arc<Asked>>,
+    pub windage: Option<Arc<Request>>,
 }
 
 /// What a channel holds.
@@ -31,9 +31,9 @@ pub(crate) enum Signal {
     Stamped(Stamps),
 }
 
-impl Asked {
+impl Request {
     /// Reads what is asked for; refuses what is not there or not what it should be.
-    pub fn of(signals: &Signals) -> Result<Asked> {
+    pub fn of(signals: &Signals) -> Result<Request> {
         let mut source = Source::open(&signals.file, "signals.file", signals)?;
         let listed = source.listed();
         let speed = match &signals.speed {
@@ -133,7 +133,7 @@ impl Asked {
         let mut all = source.notes();
         all.append(&mut notes);
         all.extend(windage.iter().flat_map(|run| run.notes.iter().cloned()));
-        Ok(Asked {
+        Ok(Request {
             signals: signals.clone(),
             listed,
             notes: all,
@@ -206,7 +206,7 @@ fn made_by(path: &Path) -> String {
 }
 
 /// A coast-down of the shaft without the bearing, its channels read.
-fn without_bearing(path: &Path) -> Result<Asked> {
+fn without_bearing(path: &Path) -> Result<Request> {
     let key = "signals.steady.windage_file";
     let (scenario, signals) = signals_file(key, path)?;
     let refuse = |code, found: &str, needed: &str| {
@@ -230,7 +230,7 @@ fn without_bearing(path: &Path) -> Result<Asked> {
             ));
         }
     }
-    Asked::of(&signals).map_err(|problem| scenario.locate(problem))
+    Request::of(&signals).map_err(|problem| scenario.locate(problem))
 }
 
 /// The middle of the values that are numbers; not-a-number where there is none.
@@ -254,7 +254,7 @@ pub(crate) fn in_newton_metres(
 }
 
 /// The channels that were read as samples.
-pub(crate) fn sampled<'a>(asked: &'a Asked) -> impl Iterator<Item = &'a Series> {
+pub(crate) fn sampled<'a>(asked: &'a Request) -> impl Iterator<Item = &'a Series> {
     let of = |signal: &'a Option<Signal>| match signal {
         Some(Signal::Sampled(series)) => Some(series),
         _ => None,

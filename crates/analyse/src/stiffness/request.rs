@@ -25,7 +25,7 @@ fn words() -> impl Iterator<Item = (&'static str, Arrangement)> {
 
 /// A bearing, its loads and its speed.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Asked {
+pub struct Request {
     /// Name of the bearing.
     pub name: String,
     /// Number of balls of a row.
@@ -170,12 +170,12 @@ impl Typed<'_> {
     }
 }
 
-impl Asked {
+impl Request {
     /// Reads what is asked of a bearing of the catalogue; its designation may say how its rows stand.
     ///
     /// # Errors
     /// Words that are none of the allowed ones, and bearings or arrangements that cannot be computed.
-    pub fn read(meant: &Meant<'_>, typed: &Typed<'_>) -> Result<Asked> {
+    pub fn read(meant: &Meant<'_>, typed: &Typed<'_>) -> Result<Request> {
         let bearing = meant.bearing;
         let needed = |key: &str| match bearing.number(key) {
             Some(value) => Ok(value),
@@ -263,7 +263,7 @@ impl Asked {
                 allowed,
             );
         }
-        Ok(Asked {
+        Ok(Request {
             name: bearing.name.clone(),
             balls: needed("ball_count")? as usize,
             ball_diameter,

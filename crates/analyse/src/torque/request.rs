@@ -31,7 +31,7 @@ impl Moments {
 }
 
 /// A bearing whose moments can be asked for.
-pub struct Asked<'a> {
+pub struct Request<'a> {
     /// What was written.
     pub torque: &'a Torque,
     pub(crate) set: RollingSet<f64>,
@@ -39,9 +39,9 @@ pub struct Asked<'a> {
     loss: AccelerationLoss,
 }
 
-impl Asked<'_> {
+impl Request<'_> {
     /// Builds the laws of a bearing.
-    pub fn of(torque: &Torque) -> Result<Asked<'_>> {
+    pub fn of(torque: &Torque) -> Result<Request<'_>> {
         let radius = 0.5 * torque.ball_diameter;
         let inner_track_radius = 0.5 * torque.pitch_diameter - radius;
         let ball = (torque.ball_mass)
@@ -50,7 +50,7 @@ impl Asked<'_> {
             let allowed = "a law that has constants for this bearing";
             problem_at(Code::NoLawData, "bearing.moment.law", why, allowed)
         })?;
-        Ok(Asked {
+        Ok(Request {
             torque,
             set: RollingSet {
                 inner_track_radius,

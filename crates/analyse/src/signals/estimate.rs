@@ -19,14 +19,14 @@ type Part<F, T> = fn(&F) -> &Result<T, String>;
 
 /// What was found, and what to know of it.
 #[derive(Default)]
-pub(crate) struct Found {
-    pub shaft: Option<Arc<shaft::Found>>,
-    pub torque: Option<Arc<torque::Found>>,
-    pub cage: Option<cage::Found>,
+pub(crate) struct Estimate {
+    pub shaft: Option<Arc<shaft::Estimate>>,
+    pub torque: Option<Arc<torque::Estimate>>,
+    pub cage: Option<cage::Estimate>,
     /// Temperature of the outer race, K, about every 50 ms.
-    pub temperature: Option<temperature::Found>,
-    pub vibration: Option<vibration::Found>,
-    pub steady: Option<steady::Found>,
+    pub temperature: Option<temperature::Estimate>,
+    pub vibration: Option<vibration::Estimate>,
+    pub steady: Option<steady::Estimate>,
     /// Channels held against their converter.
     pub converted: Vec<converter::Converted>,
     /// What an estimator refused: a name of the channel's part, and why.
@@ -34,7 +34,7 @@ pub(crate) struct Found {
     pub warnings: Vec<Warning>,
 }
 
-impl Found {
+impl Estimate {
     /// Warns of each note of an estimator.
     pub(crate) fn warn(
         &mut self,
@@ -72,15 +72,15 @@ impl Found {
     }
 
     /// The motion of the shaft; why there is none.
-    pub fn shaft(&self) -> Result<&shaft::Found, String> {
+    pub fn shaft(&self) -> Result<&shaft::Estimate, String> {
         self.shaft.as_deref().ok_or_else(|| self.why("speed"))
     }
 
     /// The channel of a speed.
     pub fn channel(&self) -> Result<&shaft::Channel, String> {
         match &self.shaft()?.seen {
-            shaft::Seen::Channel(channel) => Ok(channel),
-            shaft::Seen::Marks { .. } => Err("the channel holds marks".to_string()),
+            shaft::MotionSource::Channel(channel) => Ok(channel),
+            shaft::MotionSource::Marks { .. } => Err("the channel holds marks".to_string()),
         }
     }
 
@@ -107,12 +107,12 @@ impl Found {
         self.change()?.end.ok_or_else(none)
     }
 
-    fn reading(&self) -> Result<&torque::Found, String> {
+    fn reading(&self) -> Result<&torque::Estimate, String> {
         self.torque.as_deref().ok_or_else(|| self.why("torque"))
     }
 
     /// A part of what was found of the torque.
-    pub fn torque<T>(&self, part: Part<torque::Found, T>) -> Result<&T, String> {
+    pub fn torque<T>(&self, part: Part<torque::Estimate, T>) -> Result<&T, String> {
         part(self.reading()?).as_ref().map_err(Clone::clone)
     }
 
@@ -147,13 +147,13 @@ impl Found {
         known.ok_or_else(|| none.to_string())
     }
 
-    fn vibrations(&self) -> Result<&vibration::Found, String> {
+    fn vibrations(&self) -> Result<&vibration::Estimate, String> {
         let found = self.vibration.as_ref();
         found.ok_or_else(|| self.why("vibration"))
     }
 
     /// A picture of a vibration.
-    pub fn vibration<T>(&self, part: Part<vibration::Found, T>) -> Result<&T, String> {
+    pub fn vibration<T>(&self, part: Part<vibration::Estimate, T>) -> Result<&T, String> {
         part(self.vibrations()?).as_ref().map_err(Clone::clone)
     }
 
@@ -165,12 +165,12 @@ impl Found {
     }
 
     /// What was found in slow runs.
-    pub fn slow(&self) -> Result<&steady::Found, String> {
+    pub fn slow(&self) -> Result<&steady::Estimate, String> {
         self.steady.as_ref().ok_or_else(|| self.why("steady"))
     }
 
     /// A part of it.
-    pub fn steady<T>(&self, part: Part<steady::Found, T>) -> Result<&T, String> {
+    pub fn steady<T>(&self, part: Part<steady::Estimate, T>) -> Result<&T, String> {
         part(self.slow()?).as_ref().map_err(Clone::clone)
     }
 

@@ -23,7 +23,7 @@ const MAPPED: usize = 5;
 const DEFLECTIONS: usize = 4;
 
 /// A rotor with what its analyses need.
-pub struct Asked {
+pub struct Request {
     pub(crate) analysis: RotorAnalysis,
     /// The model of the rotor.
     pub(crate) model: RotorModel,
@@ -45,7 +45,7 @@ pub struct Asked {
 }
 
 /// What was found.
-pub(crate) struct Found {
+pub(crate) struct Analyses {
     pub(crate) diagram: Campbell,
     pub(crate) criticals: Vec<Critical>,
     /// Modes at the rated speed.
@@ -82,7 +82,7 @@ pub(crate) fn gravity(analysis: &RotorAnalysis) -> C64 {
     C64::from_polar(analysis.gravity, analysis.gravity_angle)
 }
 
-impl Asked {
+impl Request {
     /// Everything wrong with what is asked is told here.
     pub fn of(analysis: &RotorAnalysis) -> Result<Self, Box<Problem>> {
         let model = RotorModel::new(&analysis.rotor, analysis.speed)?;
@@ -250,7 +250,7 @@ impl Asked {
     }
 
     /// Computes everything.
-    pub(crate) fn find(&self) -> Result<Found, RotorError> {
+    pub(crate) fn find(&self) -> Result<Analyses, RotorError> {
         let (asked, rotor) = (&self.analysis, self.rotor());
         let followed = asked.frequency_to.max(asked.speed_to);
         let diagram = self.within.campbell(&asked.speeds(), followed)?;
@@ -340,7 +340,7 @@ impl Asked {
             .iter()
             .flat_map(|own| own.bearings.iter().map(|one| own.find(one)));
         let rolling = self.rolling.as_ref().and_then(|own| own.as_ref().ok());
-        Ok(Found {
+        Ok(Analyses {
             rolling: rolling.map(|own| own.find().map(Box::new)).transpose()?,
             whirl: whirl.collect::<Result<_, _>>()?,
             sag: match &self.levitated {

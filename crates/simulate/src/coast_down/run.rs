@@ -1,6 +1,6 @@
 //! A coast-down as it was computed, and what its rows say.
 
-use crate::coast_down::build::{Built, OnLimits, Part, Start};
+use crate::coast_down::build::{CoastDownModel, OnLimits, Part, Start};
 use crate::coast_down::course::{self, Course};
 use crate::coast_down::passages::limits;
 use crate::coast_down::rows::{Row, RowOfBearing};
@@ -10,8 +10,8 @@ use thermal::bearing_network::NODES;
 use thermal::held::Held;
 
 /// A coast-down, and the same with its nodes held at their limits where one is passed.
-pub(crate) struct Ran<'a> {
-    pub built: &'a Built,
+pub(crate) struct CoastDownRun<'a> {
+    pub built: &'a CoastDownModel,
     pub free: Course,
     pub held: Option<Course>,
     /// Of the nodes of all bearings, °C.
@@ -19,7 +19,10 @@ pub(crate) struct Ran<'a> {
 }
 
 /// Computes a coast-down.
-pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a>, Box<Problem>> {
+pub(crate) fn run<'a>(
+    built: &'a CoastDownModel,
+    interrupt: &AtomicBool,
+) -> Result<CoastDownRun<'a>, Box<Problem>> {
     let each = built.parts.iter().flat_map(|part| limits(&part.warm));
     let limits: Vec<_> = each.collect();
     let free = course::follow(built, None, interrupt)?;
@@ -38,7 +41,7 @@ pub(crate) fn ran<'a>(built: &'a Built, interrupt: &AtomicBool) -> Result<Ran<'a
         true => Some(course::follow(built, Some(&limits), interrupt)?),
         false => None,
     };
-    Ok(Ran {
+    Ok(CoastDownRun {
         built,
         free,
         held,
@@ -72,7 +75,7 @@ impl Part {
     }
 }
 
-impl Ran<'_> {
+impl CoastDownRun<'_> {
     /// Where another coast-down goes on, at the end of this one: the last row is that of its first.
     pub fn start(&self) -> Start {
         let before = |course: &Course| {
