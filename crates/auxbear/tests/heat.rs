@@ -84,7 +84,7 @@ stiffness = "2e7 N/m"
 damping = "5000 N s/m"
 moving_mass = "0.5 kg"
 [bearing]
-fidelity = "bushing"
+type = "bushing"
 [run]
 duration = "1 s"
 output_interval = "5 ms"

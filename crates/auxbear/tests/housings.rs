@@ -43,8 +43,7 @@ fn until_the_release_everything_goes_on_as_it_started() {
 fn a_casing_that_does_not_yield_is_the_ground() {
     let (bearing, rest) = CASING.split_once("[bearing]\n").unwrap();
     let (_, rest) = rest.split_once("[[auxiliary_bearing]]").unwrap();
-    let bushings =
-        format!("{bearing}[bearing]\nfidelity = \"bushing\"\n\n[[auxiliary_bearing]]{rest}");
+    let bushings = format!("{bearing}[bearing]\ntype = \"bushing\"\n\n[[auxiliary_bearing]]{rest}");
     let stiff = [
         "rotor.housing.casing.mass=1e5 kg",
         "rotor.housing.casing.stiffness=1e12 N/m",

@@ -40,7 +40,7 @@ stiffness = "2e7 N/m"
 damping = "2000 N s/m"
 moving_mass = "1 kg"
 [bearing]
-fidelity = "bushing"
+type = "bushing"
 [[rotor.node]]
 name = "na"
 at = "0 mm"

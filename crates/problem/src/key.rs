@@ -36,6 +36,10 @@ pub enum Kind {
     Words(&'static [&'static str]),
     /// A list of any texts; likewise.
     Texts,
+    /// A matrix: rows of equally many quantities, each row of the dimension of one of these SI units.
+    Matrix(&'static [&'static str]),
+    /// Filters: polynomials of s over polynomials of s.
+    Filters,
     /// Anything: whoever takes it reads it, and says what is needed.
     Any(&'static str),
 }
@@ -333,6 +337,8 @@ impl<S: 'static> Key<S> {
             | Kind::Series(_)
             | Kind::Words(_)
             | Kind::Texts
+            | Kind::Matrix(_)
+            | Kind::Filters
             | Kind::Any(_) => text.to_string(),
         }
     }
@@ -395,6 +401,13 @@ impl<S: 'static> Key<S> {
             Kind::Texts => {
                 format!("a list of texts in quotes, all different, is needed, e.g. {example}")
             }
+            Kind::Matrix(units) => format!(
+                "rows of equally many quantities in {} are needed, e.g. {example}; 0 needs no unit",
+                units.join(" or ")
+            ),
+            Kind::Filters => format!(
+                "filters are needed, each coefficients of s, the highest power first, whose quotient has no unit, e.g. {example}; 0 needs no unit"
+            ),
             Kind::Any(needed) => needed.to_string(),
             Kind::Switch => "true or false is needed".to_string(),
             Kind::Text => format!("a text in quotes is needed, e.g. {example}"),

@@ -11,6 +11,7 @@ pub mod provenance;
 pub mod raw;
 pub mod read;
 mod read_lists;
+pub mod read_matrix;
 mod read_rows;
 pub mod table;
 pub mod value;

@@ -93,7 +93,12 @@ impl<'a> Reader<'a> {
 
     /// The value of `{ value = …, source = … }`, or the value itself.
     fn unwrap_table<'v, S>(&self, key: &Key<S>, given: &'v Input) -> Result<Unwrapped<'v>> {
-        let (Raw::Table(parts), false) = (&given.raw, matches!(key.kind, Kind::Any(_))) else {
+        let bare = match key.kind {
+            Kind::Any(_) => true,
+            Kind::Filters => given.raw.plain().is_none(),
+            _ => false,
+        };
+        let (Raw::Table(parts), false) = (&given.raw, bare) else {
             return Ok(Unwrapped {
                 raw: &given.raw,
                 provenance: Provenance::Given,
@@ -208,6 +213,8 @@ impl<'a> Reader<'a> {
             (Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts, raw) => {
                 self.read_list(key, raw, place)
             }
+            (Kind::Matrix(units), raw) => self.read_matrix(key, units, raw, place),
+            (Kind::Filters, raw) => self.read_filters(key, raw, place),
             (Kind::Any(_), raw) => Ok((Value::Raw(raw.clone()), raw.shown())),
             (Kind::Count, Raw::Integer(text, value)) => match value {
                 Some(value) if *value >= 0 => {

@@ -95,7 +95,7 @@ impl Reader<'_> {
 }
 
 /// The unit of what has none: a bare number.
-const BARE: &str = "1";
+pub(crate) const BARE: &str = "1";
 
 /// One quantity of a row, in SI and as written; else code, what was found and a hint.
 pub(crate) fn cell(raw: &Raw, unit: &str) -> Result<(f64, String), (Code, String, Option<String>)> {

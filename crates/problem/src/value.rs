@@ -27,6 +27,10 @@ pub enum Value {
     Words(Vec<&'static str>),
     /// Any texts.
     Texts(Vec<String>),
+    /// Rows of a matrix in SI, and the unit of each as its key names it.
+    Matrix(Vec<Vec<f64>>, Vec<&'static str>),
+    /// Filters: numerator and denominator, the highest power of s first, in SI.
+    Filters(Vec<[Vec<f64>; 2]>),
     /// What is not read yet.
     Raw(Raw),
 }
@@ -44,6 +48,8 @@ impl Value {
             | Value::Numbers(_)
             | Value::Words(_)
             | Value::Texts(_)
+            | Value::Matrix(..)
+            | Value::Filters(_)
             | Value::Raw(_) => None,
         }
     }

@@ -1,9 +1,11 @@
 //! The text of a scenario as a list of keys and raw values, each with its place.
 
+use crate::bearing::kind::{FIDELITY, TYPE, is_bushing};
 use crate::key::{Key, quoted};
 use crate::meant;
 use crate::measured::{self, MEASURED};
 use crate::not_modelled;
+use crate::renamed;
 use crate::rotor::keys::{OF_MACHINES, kind_at, kind_within};
 use crate::rotor::tables::{self, WrittenPart, is_part};
 use crate::several::{self, AUXILIARY_BEARING, LIMIT, PLANES, VARY};
@@ -102,7 +104,7 @@ impl Document {
 
     /// One document for each auxiliary bearing, with what the file gives for all and what it gives for that one; the document
     /// itself where the file does not tell several apart.
-    pub fn of_each_bearing(&self) -> Vec<Document> {
+    pub fn of_each_bearing(&self) -> Result<Vec<Document>> {
         // what is no count is refused where it is read
         let count = |values: &BTreeMap<_, Input>, path| match values.get(path)?.raw.plain()? {
             Raw::Integer(_, Some(count)) => Some((*count).clamp(1, 1000) as f64),
@@ -114,19 +116,26 @@ impl Document {
         let mut document = self.clone();
         document.rows = whole * planes(PLANES);
         if self.own.is_empty() {
-            return vec![document];
+            renamed::under_present_keys(&mut document)?;
+            return Ok(vec![document]);
         }
         document.rows = whole * self.own.iter().map(rows).sum::<f64>();
         let of = |own: &PartValues| {
-            let mut document = document.clone();
-            document.bearing = Some(own.name.clone());
-            let values = own
-                .values
-                .iter()
-                .map(|(path, given)| (*path, given.clone()));
-            document.values.extend(values);
-            document.own.clear();
-            document
+            let mut one = Document {
+                bearing: Some(own.name.clone()),
+                values: own.values.clone(),
+                own: Vec::new(),
+                ..document.clone()
+            };
+            renamed::under_present_keys(&mut one)?;
+            for (path, given) in &document.values {
+                // how the others are modelled says nothing of a ring
+                if *path != FIDELITY || !one.values.get(TYPE).is_some_and(is_bushing) {
+                    one.values.entry(path).or_insert_with(|| given.clone());
+                }
+            }
+            renamed::under_present_keys(&mut one)?;
+            Ok(one)
         };
         self.own.iter().map(of).collect()
     }

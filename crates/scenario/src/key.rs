@@ -2,7 +2,9 @@
 
 pub use problem::key::*;
 
+use crate::bearing::kind::{BearingType, TYPE};
 use crate::system::SystemName;
+use problem::words::Words;
 
 /// One key of a scenario.
 pub type Key = problem::key::Key<SystemName>;
@@ -11,11 +13,8 @@ pub type Key = problem::key::Key<SystemName>;
 pub const LANDING_FRICTION: Range = Range::FromTo(0.0, 5.0);
 
 /// That there are balls.
-const WITH_BALLS: &[Condition] =
-    &[
-        Condition::new("bearing.fidelity", &["planar", "rolling", "spatial"])
-            .because("a bushing has neither balls nor races; mount.moving_mass is its ring"),
-    ];
+const WITH_BALLS: &[Condition] = &[Condition::new(TYPE, BearingType::WORDS)
+    .because("a bushing has neither balls nor races; mount.moving_mass is its ring")];
 
 /// One section of a scenario.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,7 +39,7 @@ impl Section {
 
 /// All that must hold for a key to have a meaning: its own conditions, and of a rolling bearing that there are balls.
 pub fn conditions(key: &Key) -> impl Iterator<Item = &'static Condition> {
-    let of_balls = key.path.starts_with("bearing.") && key.path != "bearing.fidelity";
+    let of_balls = key.path.starts_with("bearing.") && key.path != TYPE;
     let balls = if of_balls { WITH_BALLS } else { &[] };
     balls.iter().chain(key.when)
 }

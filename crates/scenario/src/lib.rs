@@ -25,6 +25,7 @@ pub mod meant;
 pub mod measured;
 pub mod not_modelled;
 pub mod notes;
+mod renamed;
 pub mod resolve;
 pub mod resolved;
 pub mod rig;
@@ -68,10 +69,11 @@ pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};
 pub use key::quoted;
 pub use key::{Condition, Fallback, Key, Kind, Otherwise, Presence, Range, Section};
-pub use limit::{Forbidden, Limit, Side, present_name};
+pub use limit::{Forbidden, Limit, Side};
 pub use locate::{UNNAMED, problem_at};
 pub use measured::Measured;
 pub use problem::provenance::Provenance;
+pub use renamed::present_name;
 pub use resolved::{Resolved, ResolvedValue};
 pub use rig::{
     BallPass, Engagement, Logger, RawFormat, Rig, RigArm, RigFlywheel, RigLoad, RigMotor,
@@ -344,15 +346,17 @@ impl Scenario {
 
     /// The scenario as the first of many that differ from it in a few values.
     pub fn variations(&self) -> Variations<'_> {
-        let documents = self.document.of_each_bearing().into_iter();
-        let read = documents.map(|document| {
+        let read = |document| {
             let values = values::Values::resolve(&document, &BuiltIn, None)?;
             Ok(Before::new(document, values))
-        });
+        };
+        let documents = self.document.of_each_bearing();
+        let before: Result<_> =
+            documents.and_then(|documents| documents.into_iter().map(read).collect());
         Variations {
             scenario: self,
             // what cannot be read alone is read, and refused, with the changes
-            before: read.collect::<Result<_>>().unwrap_or_default(),
+            before: before.unwrap_or_default(),
         }
     }
 
@@ -393,7 +397,7 @@ impl Scenario {
 
     /// What a study varies of it: a path with its distribution as a table of one word.
     pub fn varied(&self, path: &str, raw: &document::Raw, place: problem::Place) -> Result<Vary> {
-        let documents = self.document.of_each_bearing();
+        let documents = self.document.of_each_bearing()?;
         let values = (documents.iter())
             .map(|document| values::Values::resolve(document, &BuiltIn, None))
             .collect::<Result<Vec<_>, _>>()?;
@@ -434,7 +438,7 @@ impl Scenario {
         before: &[Before],
     ) -> Result<Scenario> {
         let name = &document.file.clone();
-        let documents = document.of_each_bearing();
+        let documents = document.of_each_bearing()?;
         let mut values = (documents.iter().enumerate())
             .map(|(k, document)| values::Values::resolve(document, bearings, before.get(k)))
             .collect::<Result<Vec<_>, _>>()?;

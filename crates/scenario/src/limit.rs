@@ -16,6 +16,7 @@
 use crate::document::Document;
 use crate::drop::case::Cases;
 use crate::locate::UNNAMED;
+use crate::renamed::present_name;
 use crate::several::LIMIT;
 use problem::key::{Key, Kind, quoted};
 use problem::raw::{Raw, Written};
@@ -127,15 +128,6 @@ const SYNONYMS: [(&[&str], &str); 2] = [
     (&["max", "maximum", "at_most"], "most"),
     (&["min", "minimum", "at_least"], "least"),
 ];
-
-/// The name that a result or column has now, of one that it had before: `run_out.stop_time` is `coast_down.stop_time`.
-pub fn present_name(name: &str) -> String {
-    let parts = name.split('.').map(|part| match part {
-        "run_out" => "coast_down",
-        part => part,
-    });
-    parts.collect::<Vec<_>>().join(".")
-}
 
 impl Limit {
     /// The same of another result.

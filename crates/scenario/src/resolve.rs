@@ -1,5 +1,6 @@
 //! From the table of keys and the given values to one value for every key.
 
+use crate::bearing::kind::TYPE;
 use crate::bearing::source::{BearingRecord, BearingSource};
 use crate::document::{Document, Input};
 use crate::key::{Condition, Key, Kind, Otherwise, Presence, conditions, quoted};
@@ -95,7 +96,10 @@ impl Values {
             }
         }
         let mut missing: Vec<Problem> = Vec::new();
-        for key in table::keys_of(document.system) {
+        // whether the other keys of a bearing have a meaning depends on its type
+        let (first, rest): (Vec<&Key>, Vec<&Key>) =
+            table::keys_of(document.system).partition(|key| key.path == TYPE);
+        for key in first.into_iter().chain(rest) {
             let given = document.values.get(key.path);
             if let Some(unmet) = values.unmet(key) {
                 match given {
@@ -237,6 +241,8 @@ impl Values {
             | Value::Numbers(_)
             | Value::Words(_)
             | Value::Texts(_)
+            | Value::Matrix(..)
+            | Value::Filters(_)
             | Value::Raw(_) => false,
         })
     }

@@ -11,9 +11,13 @@
 //! | two keys for one thing | `not` both |
 //!
 //! What an editor cannot know is left to `auxbear check`: dimensions of units, ranges of quantities, what the catalogue
-//! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema.
+//! knows of a bearing, and every check between values. Nothing that the program accepts is refused by the schema,
+//! but for the spellings of earlier files.
 
-use crate::key::{Condition, Key, Kind, Otherwise, Presence, Range, Section};
+mod plain;
+
+use self::plain::{QUANTITY, plain};
+use crate::key::{Condition, Key, Kind, Otherwise, Presence, Section};
 use crate::measured::{MEASURED, TABLE};
 use crate::rotor::keys::{PARTS, PartKind};
 use crate::several::{AUXILIARY_BEARING, LIMIT, VARY, of_each_bearing};
@@ -26,13 +30,6 @@ use serde_json::{Map, Value, json};
 
 /// Dialect of the schema.
 const DIALECT: &str = "https://json-schema.org/draft/2020-12/schema";
-
-/// A number and a unit. Which unit is for the program to judge.
-const QUANTITY: &str =
-    r"^\s*[+\-−]?(\d+\.?\d*|\.\d+)([eE][+\-]?\d+)?\s*(1/.+|1\s*|[^\s\d.,+\-/^)]([^\d+\-].*)?)$";
-
-/// A number or a fraction of whole numbers.
-const FRACTION: &str = r"^\s*[+\-]?\d*\.?\d*\s*(/\s*[+\-]?\d+\s*)?$";
 
 /// The JSON Schema (draft 2020-12) of the files of a system; `None` for a kind that is not built yet.
 pub fn schema(kind: &str) -> Option<String> {
@@ -417,7 +414,7 @@ fn holds(condition: &Condition, system: SystemName) -> Value {
         _ => json!({ "enum": condition.values }),
     };
     say(&mut schema, condition.path, with_origin(&values));
-    if condition.path != BEARING_TYPE {
+    if by_default || condition.path != BEARING_TYPE {
         return schema;
     }
     // the catalogue may tell the type of a bearing that is named
@@ -474,64 +471,6 @@ fn with_origin(plain: &Value) -> Value {
     }] })
 }
 
-fn plain(key: &Key, system: SystemName) -> Value {
-    let quantity = json!({ "type": "string", "pattern": QUANTITY });
-    match key.kind {
-        Kind::Quantity(_) if key.prefix.is_some() => json!({ "type": "string" }),
-        Kind::Quantity(_) | Kind::ContactStiffness { .. } => quantity,
-        Kind::Coefficient => number("number", key.range),
-        Kind::Count => number("integer", key.range),
-        Kind::Exponent => json!({ "anyOf": [
-            number("number", key.range),
-            { "type": "string", "pattern": FRACTION },
-        ] }),
-        Kind::Word(_) if key.path == "system" => json!({ "enum": [system.word()] }),
-        Kind::Word(words) => json!({ "enum": words }),
-        Kind::Switch => json!({ "type": "boolean" }),
-        Kind::Any(_) => json!({}),
-        Kind::Text => json!({ "type": "string" }),
-        Kind::Quantities(_) | Kind::Series(_) => one_or_several(&quantity),
-        Kind::Words(words) => one_or_several(&json!({ "enum": words })),
-        Kind::Texts => one_or_several(&json!({ "type": "string" })),
-        Kind::Table(_, "1") => json!({
-            "type": "array",
-            "minItems": 2,
-            "items": { "type": "array", "prefixItems": [quantity, { "type": "number" }], "minItems": 2, "maxItems": 2 },
-        }),
-        Kind::Table(..) => json!({
-            "type": "array",
-            "minItems": 2,
-            "items": { "type": "array", "minItems": 2, "maxItems": 2, "items": quantity },
-        }),
-    }
-}
-
-/// One value, or a list of them.
-fn one_or_several(entry: &Value) -> Value {
-    json!({ "anyOf": [entry, { "type": "array", "minItems": 1, "items": entry }] })
-}
-
-/// A bare number in its range; whole numbers are never negative.
-fn number(kind: &str, range: Range) -> Value {
-    let mut schema = json!({ "type": kind });
-    match range {
-        Range::Any if kind == "integer" => schema["minimum"] = json!(0),
-        Range::Any => {}
-        Range::Positive => schema["exclusiveMinimum"] = json!(0),
-        Range::NotNegative => schema["minimum"] = json!(0),
-        Range::Above(low) => schema["exclusiveMinimum"] = json!(low),
-        Range::AboveTo(low, high) => {
-            schema["exclusiveMinimum"] = json!(low);
-            schema["maximum"] = json!(high);
-        }
-        Range::FromTo(low, high) => {
-            schema["minimum"] = json!(low);
-            schema["maximum"] = json!(high);
-        }
-    }
-    schema
-}
-
 /// A value as written in the table, as JSON; null where it has no short form.
 fn typed(key: &Key, text: &str) -> Value {
     match key.kind {
@@ -539,9 +478,12 @@ fn typed(key: &Key, text: &str) -> Value {
         Kind::Count => text.parse().map_or(Value::Null, |value: u64| json!(value)),
         Kind::Switch => json!(text == "true"),
         // a list of texts, or of lists of texts, which TOML and JSON write alike
-        Kind::Table(..) | Kind::Quantities(_) | Kind::Series(_) | Kind::Words(_) | Kind::Texts => {
-            serde_json::from_str(text).unwrap_or(Value::Null)
-        }
+        Kind::Table(..)
+        | Kind::Quantities(_)
+        | Kind::Series(_)
+        | Kind::Words(_)
+        | Kind::Texts
+        | Kind::Matrix(_) => serde_json::from_str(text).unwrap_or(Value::Null),
         _ => json!(text),
     }
 }

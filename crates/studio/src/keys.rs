@@ -81,7 +81,7 @@ fn about(key: &'static Key, presence: Presence) -> Value {
         "name": key.name(),
         "unit": key.unit(),
         "words": words,
-        "several": matches!(key.kind, Kind::Words(_) | Kind::Texts | Kind::Table(..) | Kind::Quantities(_) | Kind::Series(_)),
+        "several": matches!(key.kind, Kind::Words(_) | Kind::Texts | Kind::Table(..) | Kind::Quantities(_) | Kind::Series(_) | Kind::Matrix(_) | Kind::Filters),
         "doc": key.doc,
         "needed": key.needed(),
         "example": key.example,

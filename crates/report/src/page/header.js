@@ -244,7 +244,7 @@ function machineLine(run) {
   const clearance = given("contact.radial_air_clearance");
   const friction = given("contact.friction_coefficient");
   const fidelity = given("bearing.fidelity");
-  const bearing = given("bearing.name") || (inputOf(run, "bearing.ball_count") ? "bearing without a name" : null);
+  const bearing = given("bearing.name") || (inputOf(run, "bearing.ball_count") ? "bearing without a name" : given("bearing.type"));
   const planes = given(run.summary.name ? "planes" : "rotor.planes");
   const assumed = (path) => (inputOf(run, path).mark === "assumed" ? " (assumed)" : "");
   const facts = [

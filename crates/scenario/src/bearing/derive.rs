@@ -1,6 +1,6 @@
 //! Values that follow from others.
 
-use crate::bearing::kind::{BallMaterial, BearingType, Modelled};
+use crate::bearing::kind::{BUSHING, BallMaterial, BearingType, FIDELITY, Fidelity, TYPE};
 use crate::bearing::lubricant::Lubricant;
 use crate::bearing::moment::{EquivalentLoad, Lubricated, MomentLaw};
 use crate::heat::Network;
@@ -34,7 +34,6 @@ const BALL_MASS: &str = "bearing.ball_mass";
 const BALL: &str = "bearing.ball_diameter";
 const PITCH: &str = "bearing.pitch_diameter";
 const MATERIAL: &str = "bearing.ball_material";
-const FIDELITY: &str = "bearing.fidelity";
 
 /// Contact angle of a deep groove bearing under axial load, degrees: 0.9 cot(16.7 degrees) = 3.
 const DEEP_GROOVE_ANGLE: f64 = 16.7;
@@ -52,9 +51,9 @@ impl Values {
         if FALLING.contains(&self.system()) {
             return Ok(());
         }
-        let found = format!("{} where a bearing is driven", quoted("bushing"));
-        let needed = "\"planar\" or \"rolling\" is needed: a bushing does not turn";
-        self.refuse(Code::Conflict, FIDELITY, found, needed)
+        let found = format!("{} where a bearing turns", quoted(BUSHING));
+        let needed = "a type with balls is needed, e.g. \"deep groove\": a bushing does not turn";
+        self.refuse(Code::Conflict, TYPE, found, needed)
     }
 
     /// Fills what follows from other values; `before` is the file with other values at a few keys.
@@ -70,7 +69,7 @@ impl Values {
             )?;
         }
         self.cutoff()?;
-        if self.chosen(FIDELITY) == Some(Modelled::Bushing) {
+        if self.word(TYPE) == BUSHING {
             return self.bushing();
         }
         if self.lacks("bearing.cage_inertia")
@@ -177,7 +176,7 @@ impl Values {
     fn contact_angle(&mut self, constants: Option<[f64; 2]>, of: &str) -> Done {
         self.refuse_angle(ANGLE, constants, of)?;
         // in space each row has an axial load of its own
-        let in_space = self.chosen(FIDELITY) == Some(Modelled::Spatial);
+        let in_space = self.chosen(FIDELITY) == Some(Fidelity::Spatial);
         let loaded = in_space || self.number(AXIAL_LOAD).is_some_and(|load| load != 0.0);
         // what the file says of the bearing counts before its catalogue
         let catalogued = self.mark(CONTACT_ANGLE) == "catalogue";
@@ -241,7 +240,7 @@ impl Values {
 
     /// The type of the bearing; deep groove where nothing asks for it.
     pub(super) fn bearing_type(&self) -> BearingType {
-        (self.chosen("bearing.type")).unwrap_or(BearingType::DeepGroove)
+        self.chosen(TYPE).unwrap_or(BearingType::DeepGroove)
     }
 
     /// Whether a key of this system has neither a value nor an obstacle.

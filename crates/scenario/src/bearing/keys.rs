@@ -4,8 +4,7 @@ use crate::bearing::Oil;
 use crate::bearing::TractionLaw;
 use crate::bearing::fits::Growth;
 use crate::bearing::kind::BallMaterial;
-use crate::bearing::kind::BearingType;
-use crate::bearing::kind::Modelled;
+use crate::bearing::kind::{Fidelity, TYPE, TYPES};
 use crate::bearing::separation::SeparationKind;
 use crate::key::{Condition, Fallback, Key, Kind, Otherwise, Range, Section};
 use crate::system::{
@@ -27,7 +26,7 @@ pub const TRACTION_SECTIONS: &[Section] = &[
 pub(crate) const STEEL_BALLS: Condition = Condition::new("bearing.ball_material", &["steel"]);
 
 const ANGULAR: &[Condition] = &[Condition::new(
-    "bearing.type",
+    TYPE,
     &["angular contact", "angular contact double row"],
 )];
 
@@ -45,10 +44,10 @@ const TANH_OR_DRY: &[Condition] = &[traction(&["tanh", "dry"])];
 
 #[rustfmt::skip]
 pub(crate) const KEYS: &[Key] = &[
-    Key::new("bearing.fidelity", Kind::Word(Modelled::WORDS), "planar", "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster; spatial moves balls, cages and rings in space, with contact angles and thrust, for a machine; bushing has no balls, its ring (mount.moving_mass) does not turn and the rotor rubs on it: no other key of [bearing] then has an effect.")
+    Key::new("bearing.fidelity", Kind::Word(Fidelity::WORDS), "planar", "How the bearing is modelled: planar moves each ball and the cage with slip; rolling assumes pure rolling and is far faster; spatial moves balls, cages and rings in space, with contact angles and thrust, for a machine.")
         .default("planar", "slip of the balls matters while a race is brought to speed").only(MOVING),
     Key::new("bearing.name", Kind::Text, "6005", "Name in the bearing catalogue.").optional("all dimensions stand in this file"),
-    Key::new("bearing.type", Kind::Word(BearingType::WORDS), "deep groove", "Type of the bearing: it chooses factors of the friction moment, and whether there is a contact angle.")
+    Key::new(TYPE, Kind::Word(TYPES), "deep groove", "Type of the bearing: it chooses factors of the friction moment, and whether there is a contact angle. A bushing, of a drop or a machine, has no balls; its ring (mount.moving_mass) does not turn and the rotor rubs on it: no other key of [bearing] then has an effect.")
         .default("deep groove", "the usual auxiliary bearing").only(WITH_MOMENT),
     Key::new("bearing.ball_count", Kind::Count, "10", "Number of balls.").within(Range::FromTo(1.0, 60.0)).catalogued(),
     Key::new("bearing.ball_diameter", Kind::Quantity("m"), "6.35 mm", "Diameter of a ball.").positive().catalogued(),

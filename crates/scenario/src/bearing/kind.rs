@@ -4,7 +4,9 @@ use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT, ThermalMaterial
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
 use physics::skf_constants::SkfType;
+use problem::raw::{Given, Raw};
 use problem::words;
+use problem::words::Words;
 
 words! {
 /// How a rolling bearing is modelled.
@@ -19,21 +21,7 @@ pub enum Fidelity {
 }
 
 words! {
-/// What an auxiliary bearing is computed as.
-pub enum Modelled {
-    /// A rolling bearing, ball by ball.
-    Planar = "planar",
-    /// A rolling bearing whose balls roll.
-    Rolling = "rolling",
-    /// A rolling bearing, ball by ball in space.
-    Spatial = "spatial",
-    /// A ring that does not turn.
-    Bushing = "bushing",
-}
-}
-
-words! {
-/// Type of a bearing.
+/// Type of a rolling bearing.
 pub enum BearingType {
     DeepGroove = "deep groove",
     /// Angular contact, single row.
@@ -41,6 +29,25 @@ pub enum BearingType {
     AngularContactDoubleRow = "angular contact double row",
     FourPointContact = "four-point contact",
 }
+}
+
+/// Key of how its motion is modelled.
+pub const FIDELITY: &str = "bearing.fidelity";
+/// Key of the type of a bearing, on which all its other keys depend.
+pub const TYPE: &str = "bearing.type";
+/// Type of an auxiliary bearing that is a ring that does not turn.
+pub const BUSHING: &str = "bushing";
+/// All types of a bearing.
+pub const TYPES: &[&str] = &{
+    let [a, b, c, d] = *BearingType::WORDS else {
+        panic!("four types have balls")
+    };
+    [a, b, c, d, BUSHING]
+};
+
+/// Whether the value given as a type is that of a ring.
+pub fn is_bushing(given: &Given) -> bool {
+    matches!(given.raw.plain(), Some(Raw::Text(text)) if text == BUSHING)
 }
 
 impl BearingType {

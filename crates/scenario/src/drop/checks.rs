@@ -50,7 +50,7 @@ impl Context<'_> {
         let refuse = |path: &str, needed: &str| self.refuse_value(Code::Conflict, path, needed);
         if let Some(warm) = &part.warm {
             if part.bearing.is_none() {
-                let needed = "\"off\" is needed beside bearing.fidelity = \"bushing\": the network is one of balls and races";
+                let needed = "\"off\" is needed beside bearing.type = \"bushing\": the network is one of balls and races";
                 return refuse("heat.network", needed);
             }
             self.warm(warm)?;

@@ -12,7 +12,7 @@ pub mod kinds;
 pub mod mount;
 mod shaft;
 
-use crate::bearing::kind::Modelled;
+use crate::bearing::kind::{BUSHING, TYPE};
 use crate::bearing::{Bearing, bearing};
 use crate::coast_down::CoastDownEnd;
 use crate::document::Document;
@@ -416,8 +416,7 @@ fn auxiliary_bearing(values: &Values) -> AuxiliaryBearing {
             }),
             parts: MountParts::of(&mount),
         },
-        bearing: (values.chosen("bearing.fidelity") != Some(Modelled::Bushing))
-            .then(|| bearing(values)),
+        bearing: (values.word(TYPE) != BUSHING).then(|| bearing(values)),
         // what it carries is known when the whole rotor is
         warm: followed.then(|| Box::new(Warm::from_values(values, 0.0))),
     }

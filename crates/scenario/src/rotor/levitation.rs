@@ -4,6 +4,7 @@ use crate::key::quoted;
 use crate::rotor::parts::{Checked, OfKind, on};
 use crate::rotor::tables::Part;
 use physics::magnet::{Amplifier, Magnet, OpposedPair, Timing};
+use problem::value::Value;
 use problem::{Code, did_you_mean};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
@@ -140,7 +141,7 @@ pub(super) fn magnets<'a>(
             amplifier,
             axes: [axis(magnet, sensor, 1)?, axis(magnet, sensor, 2)?],
         });
-        channels.push(channel(controller)?);
+        channels.push(channel(controller));
     }
     let timing = timing(&controllers)?;
     let matrix = controllers.iter().find(|part| part.known.contains_key("d"));
@@ -151,10 +152,10 @@ pub(super) fn magnets<'a>(
             return part.refuse(Code::Conflict, "d", found, allowed);
         }
         Some(part) => Control::Matrices([
-            rows(part, "a")?,
-            rows(part, "b")?,
-            rows(part, "c")?,
-            rows(part, "d")?,
+            rows(part, "a", &list)?,
+            rows(part, "b", &list)?,
+            rows(part, "c", &list)?,
+            rows(part, "d", &list)?,
         ]),
         None => Control::Channels(channels),
     };
@@ -312,50 +313,41 @@ fn amplifier(part: &Part) -> Checked<Amplifier> {
 }
 
 /// The filter of a magnet's axes: PID, then quotients.
-fn channel(part: &Part) -> Checked<Channel> {
-    let quotient = |text: &String| {
-        let both = text.split_once('/');
-        let both = both.and_then(|(above, below)| Some([row(above)?, row(below)?]));
-        let wrong = || {
-            let allowed = "coefficients of s, the highest power first, as \"1 30 6.3e6 / 1 900 6.3e6\" are needed";
-            part.refuse(Code::ControllerFilter, "filters", quoted(text), allowed)
-        };
-        both.map_or_else(wrong, Ok)
+fn channel(part: &Part) -> Channel {
+    let filters = match part.known.get("filters").map(|known| &known.value) {
+        Some(Value::Filters(filters)) => filters.clone(),
+        _ => Vec::new(),
     };
-    Ok(Channel {
+    Channel {
         path: part.path.clone(),
         proportional: part.needed("proportional"),
         integral: part.needed("integral"),
         derivative: part.needed("derivative"),
         derivative_time: part.needed("derivative_time"),
-        filters: part
-            .texts("filters")
-            .iter()
-            .map(quotient)
-            .collect::<Checked<_>>()?,
-    })
+        filters,
+    }
 }
 
-/// Numbers between spaces.
-fn row(text: &str) -> Option<Vec<f64>> {
-    text.split_whitespace()
-        .map(|word| word.parse().ok())
-        .collect()
-}
-
-/// A matrix by its rows, where it is given.
-fn rows(part: &Part, name: &str) -> Checked<Option<Vec<Vec<f64>>>> {
-    let Some(text) = part.text(name) else {
+/// A matrix by its rows, where it is given; two rows for each magnet in what its amplifier takes where rows are commands.
+fn rows(part: &Part, name: &str, magnets: &[RadialMagnet]) -> Checked<Option<Vec<Vec<f64>>>> {
+    let Some(Value::Matrix(rows, units)) = part.known.get(name).map(|known| &known.value) else {
         return Ok(None);
     };
-    let rows: Option<Vec<Vec<f64>>> = text.split(';').map(row).collect();
-    match rows.filter(|rows| rows.iter().all(|row| row.len() == rows[0].len())) {
-        Some(rows) => Ok(Some(rows)),
-        None => {
-            let allowed = "rows of equally many numbers, \"1 0; 0 1\", are needed";
-            part.refuse(Code::ControllerFilter, name, quoted(text), allowed)
+    let of_axes = magnets.iter().flat_map(|magnet| [magnet; 2]);
+    for (number, ((row, unit), magnet)) in (1..).zip(rows.iter().zip(units).zip(of_axes)) {
+        let needed = match magnet.amplifier {
+            Amplifier::Voltage { gain: None, .. } => "V",
+            _ => "A",
+        };
+        let commands = ["c", "d"].contains(&name) && row.iter().any(|value| *value != 0.0);
+        if commands && !unit.starts_with(needed) {
+            let found = format!("{unit} in row {number}");
+            let name_of = quoted(&magnet.name);
+            let allowed = format!("commands of magnet {name_of} are in {needed}");
+            return part.refuse(Code::WrongDimension, name, found, allowed);
         }
     }
+    Ok(Some(rows.clone()))
 }
 
 /// When commands take effect: the same for all controllers.

@@ -2,6 +2,7 @@
 
 use crate::document::Document;
 use crate::not_modelled;
+use crate::renamed;
 use crate::resolved::{ResolvedValue, line};
 use crate::rotor::keys::{EVENT, OF_MACHINES, PARTS, PartKind, kind_within};
 use crate::system::SystemName;
@@ -226,11 +227,19 @@ pub fn resolve(document: &Document, values: &Values) -> Result<Vec<Part>> {
             allowed,
         ));
     }
+    let has = |part: &WrittenPart, name: &str| part.keys.iter().any(|(key, ..)| key == name);
+    let magnets = document.parts.iter().filter(|part| part.kind == "magnet");
+    let volts = magnets.map(|part| has(part, "inductance") && !has(part, "amplifier_gain"));
+    let volts: Vec<bool> = volts.collect();
     let mut all: Vec<Part> = Vec::new();
     for kind in PARTS {
         let of_kind = document.parts.iter().filter(|part| part.kind == kind.word);
         for (number, written) in (1..).zip(of_kind) {
-            let mut part = read(kind, number, written, &values.file)?;
+            let mut written = written.clone();
+            if kind.word == "controller" {
+                renamed::with_units(&mut written.keys, &volts);
+            }
+            let mut part = read(kind, number, &written, &values.file)?;
             for key in kind.keys.iter().filter(|key| names_files(key)) {
                 if let Some(known) = part.table.known.remove(key.name()) {
                     let known = values.lasting_path(key, known);

@@ -166,11 +166,92 @@ fn matrices_and_samples_are_read_too() {
     assert!((a / b - 1.0).abs() < 1e-9);
 }
 
+/// The same controller with texts of bare numbers, as earlier files have them, and with quantities.
+const SPELLINGS: [[&str; 2]; 2] = [
+    [
+        "a = \"-22222 0 0 0; 0 -22222 0 0; 0 0 -22222 0; 0 0 0 -22222\"
+b = { value = \"22222 0 0 0; 0 22222 0 0; 0 0 22222 0; 0 0 0 22222\", source = \"drawing\" }
+c = \"-488884 0 0 0; 0 -488884 0 0; 0 0 -488884 0; 0 0 0 -488884\"
+d = \"496884 0 0 0; 0 496884 0 0; 0 0 496884 0; 0 0 0 496884\"
+",
+        "a = [[\"-22222 1/s\", 0, 0, 0], [0, \"-22.222 1/ms\", 0, 0], [0, 0, \"-22222 1/s\", 0], [0, 0, 0, \"-22222 1/s\"]]
+b = [[\"22222 1/(m s)\", 0, 0, 0], [0, \"22222 1/(m s)\", 0, 0], [0, 0.0, \"22222 1/(m s)\", 0], [0, 0, 0, \"22222 1/(m s)\"]]
+c = [[\"-488884 A\", 0, 0, 0], [0, \"-488884 A\", 0, 0], [\"0 A\", 0, \"-488884 A\", 0], [0, 0, 0, \"-488884 A\"]]
+d = [[\"496884 A/m\", 0, 0, 0], [0, \"496.884 A/mm\", 0, 0], [0, 0, \"496884 A/m\", 0], [0, 0, 0, \"496884 A/m\"]]
+",
+    ],
+    [
+        "filters = [\"1 30 6.3e6 / 1 900 6.3e6\", \"1 / 1e-5 1\"]\n",
+        "filters = [{ numerator = [1, \"30 1/s\", \"6.3e6 1/s^2\"], denominator = [1, \"900 1/s\", \"6.3e6 1/s^2\"] }, \
+         { denominator = [\"10 us\", 1], numerator = [1.0] }]\n",
+    ],
+];
+
+#[test]
+fn both_spellings_of_matrices_and_filters_are_one_controller_to_the_bit() {
+    for (number, spellings) in SPELLINGS.into_iter().enumerate() {
+        let own = match number {
+            0 => String::new(),
+            _ => PID.to_string(),
+        };
+        let read = |spelling: &str| {
+            let text = SMALL.replace(PID, &format!("{own}{spelling}"));
+            Scenario::parse(&text, "small.toml", &[], &BuiltIn).unwrap()
+        };
+        let [before, now] = spellings.map(read);
+        let controller = |scenario: &Scenario| {
+            let resolved = scenario.resolved.toml();
+            let (_, own) = resolved.split_once("[[levitation.controller]]").unwrap();
+            own.to_string()
+        };
+        let found = |scenario: &Scenario| {
+            let asked = Asked::of(scenario.rotor().unwrap()).unwrap();
+            format!("{:?}", asked.model.levitation.as_ref().unwrap().levitation)
+        };
+        assert_eq!(found(&before), found(&now));
+        for scenario in [&before, &now] {
+            let again = Scenario::parse(&scenario.resolved.toml(), "resolved.toml", &[], &BuiltIn);
+            let again = again.unwrap();
+            assert_eq!(found(&again), found(&before));
+            assert_eq!(controller(&again), controller(scenario));
+        }
+        let resolved = controller(&before);
+        let arrays = [
+            "d = [[\"496884 A/m\", \"0 A/m\", \"0 A/m\", \"0 A/m\"], [\"0 A/m\", \"496884 A/m\",",
+            "filters = [{ numerator = [1.0, \"30 1/s\", \"6300000 1/s^2\"], denominator = [1.0, \"900 1/s\",",
+        ];
+        assert!(resolved.contains(arrays[number]), "{resolved}");
+    }
+}
+
+#[test]
+fn commands_of_magnets_that_take_volts_are_in_volts() {
+    let coil = "inductance = \"20 mH\"\nresistance = \"1.5 ohm\"\n";
+    let volts = SMALL.replace("amplifier_bandwidth = \"2 kHz\"\n", coil);
+    let last = volts.rfind(coil).unwrap();
+    let mixed = format!("{}amplifier_bandwidth = \"2 kHz\"\n", &volts[..last]);
+    let read = |text: &str, d: &str| {
+        let text = text.replace(PID, &format!("d = {d}\n"));
+        Scenario::parse(&text, "small.toml", &[], &BuiltIn).map_err(|problem| problem.to_string())
+    };
+    let texts = "\"1 0 0 0; 0 2 0 0; 0 0 3 0; 0 0 0 4\"";
+    let resolved = read(&mixed, texts).unwrap().resolved.toml();
+    for entry in ["\"2 V/m\"", "\"3 A/m\""] {
+        assert!(resolved.contains(entry), "{resolved}");
+    }
+    let array = "[[\"1 V/m\", 0, 0, 0], [0, 0, 0, 0], [0, 0, \"3 V/m\", 0], [0, 0, 0, 0]]";
+    assert!(read(&volts, array).is_ok());
+    let told = read(&mixed, array).unwrap_err();
+    let wanted =
+        "levitation.controller.1.d: found V/m in row 3; commands of magnet \"right\" are in A";
+    assert!(told.contains("AB0105") && told.contains(wanted), "{told}");
+}
+
 const NO_INTEGRAL: Change = ("integral = \"8e4 A/(m s)\"", "");
 
 /// What is changed, and what is told of it.
 #[rustfmt::skip]
-const REFUSED: [(&[Change], Code, &str); 14] = [
+const REFUSED: [(&[Change], Code, &str); 26] = [
     (&[("8000 A/m", "3000 A/m"), NO_INTEGRAL], Code::UnstableLevitation, "eigenvalue"),
     (&[("8000 A/m", "4000 A/m"), NO_INTEGRAL], Code::ZeroStaticStiffness, "left 1"),
     (&[("\"5 A\"", "\"2.2 A\"")], Code::CurrentLimit, "A of control current on axis left 1"),
@@ -185,6 +266,18 @@ const REFUSED: [(&[Change], Code, &str); 14] = [
         Code::LevitationParts, "a second controller of every magnet without its own"),
     (&[(PID, "d = \"1 0; 0 1\"\n")], Code::ControllerSize, "2 signals to 2 commands"),
     (&[("delay = \"50 us\"", "filters = [\"1 0 0 / 1 2\"]")], Code::ControllerFilter, "3 coefficients over 2"),
+    (&[(PID, "d = \"1 0; 0\"\n")], Code::WrongType, "1 values in row 2, 2 in row 1; rows of equally many quantities in A/m or V/m are needed"),
+    (&[(PID, "d = [[\"1 A/m\", 0], [0]]\n")], Code::WrongType, "1 values in row 2, 2 in row 1"),
+    (&[(PID, "d = \"1 0; 0 x\"\n")], Code::WrongType, "the text \"1 0; 0 x\""),
+    (&[(PID, "d = [[\"1 A/m\", 0], [0, \"8000 N/m\"]]\n")], Code::WrongDimension, "\"8000 N/m\", a stiffness, in place of A/m as value 2 of row 2"),
+    (&[(PID, "d = [[\"1 A/m\", \"1 V/m\"]]\n")], Code::WrongDimension, "in place of A/m as value 2 of row 1"),
+    (&[(PID, "d = [[8000, 0]]\n")], Code::BareNumber, "the number 8000 in place of A/m as value 1 of row 1"),
+    (&[(PID, "d = [[\"x A/m\", 0]]\n")], Code::UnreadableQuantity, "as value 1 of row 1"),
+    (&[(PID, "d = [5]\n")], Code::WrongType, "the number 5 of row 1"),
+    (&[("delay = \"50 us\"", "filters = [\"1 0\"]")], Code::WrongType, "the text \"1 0\""),
+    (&[("delay = \"50 us\"", "filters = [{ numerator = [1], denominator = [1, \"900 1/m\"] }]")], Code::WrongDimension, "in place of 1/s as value 2 of the denominator of filter 1"),
+    (&[("delay = \"50 us\"", "filters = { numerator = [\"1 s\", 0, 0], denominator = [1, 0] }")], Code::ControllerFilter, "3 coefficients over 2"),
+    (&[("delay = \"50 us\"", "filters = [{ numerator = [1], over = [1] }]")], Code::UnknownKey, "the unknown key over of filter 1"),
     (&[("delay = \"50 us\"", "sampling_period = \"50 us\"\ncomputing_time = \"1 ms\"")], Code::ControllerTime, "time to compute"),
     (&[("50 us", "-50 us")], Code::OutOfRange, "not below 0"),
 ];
