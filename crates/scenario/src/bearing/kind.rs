@@ -4,7 +4,7 @@ use physics::heat_conduction::{SILICON_NITRIDE_HEAT, STEEL_HEAT, ThermalMaterial
 use physics::materials::{BEARING_STEEL, Material, SILICON_NITRIDE, ball_mass};
 use physics::palmgren_factors::FactorType;
 use physics::skf_constants::SkfType;
-use problem::raw::{Given, Raw};
+use problem::raw::{Input, Raw};
 use problem::words;
 use problem::words::Words;
 
@@ -46,7 +46,7 @@ pub const TYPES: &[&str] = &{
 };
 
 /// Whether the value given as a type is that of a ring.
-pub fn is_bushing(given: &Given) -> bool {
+pub fn is_bushing(given: &Input) -> bool {
     matches!(given.raw.plain(), Some(Raw::Text(text)) if text == BUSHING)
 }
 

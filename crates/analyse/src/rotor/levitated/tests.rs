@@ -205,7 +205,7 @@ fn both_spellings_of_matrices_and_filters_are_one_controller_to_the_bit() {
             own.to_string()
         };
         let found = |scenario: &Scenario| {
-            let asked = Asked::of(scenario.rotor().unwrap()).unwrap();
+            let asked = Request::of(scenario.rotor().unwrap()).unwrap();
             format!("{:?}", asked.model.levitation.as_ref().unwrap().levitation)
         };
         assert_eq!(found(&before), found(&now));
