@@ -44,6 +44,16 @@ fn a_shoulder_that_rubs_under_its_magnet_is_in_contact() {
     .concat();
     let carried = ran(&text, &stiff);
     assert_eq!(number(&carried, "relevitation_held"), 1.0);
+    // one that holds it within a hair of the face does not
+    let soft = [
+        &sets[..],
+        &["levitation.axial_stiffness=8e6 N/m"],
+        &["levitation.axial_damping=4e4 N s/m"],
+    ]
+    .concat();
+    let near = ran(&text, &soft);
+    assert_eq!(number(&near, "relevitation_held"), 0.0);
+    assert!(warned(&near, "AB2082") && !warned(&near, "AB2035"));
     assert!(!warned(&carried, "AB2035"));
 }
 

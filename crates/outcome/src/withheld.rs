@@ -78,10 +78,14 @@ pub fn left_open(name: &str, is_instant: bool) -> impl Iterator<Item = (&'static
     found.map(|(code, why)| (*code, format!("{why} ({code})")))
 }
 
-/// Whether a warning came of the bearing of a result, or of any bearing where the result is of the rotor.
+/// Warnings of what moves the whole rotor, and so every bearing.
+const OF_MOTION: [&str; 2] = ["AB2423", "AB2426"];
+
+/// Whether a warning came of the bearing of a result, or of any bearing where the result is of the rotor or the motion grows.
 pub(crate) fn warned(outcome: &Outcome, code: &str, name: &str) -> bool {
     let of_its_part = |part: &str| {
         part.is_empty()
+            || OF_MOTION.contains(&code)
             || !name.contains('.')
             || name.starts_with("node.")
             || name

@@ -19,10 +19,17 @@ function tile(title, value, notes, state) {
   );
 }
 
-// A run that ended early passes no criterion; it can only fail one.
+// Warnings of runs that end too soon for a verdict.
+const TOO_SOON = ["AB2083", "AB2085", "AB2324", "AB2423", "AB2424", "AB2426"];
+
+function tooSoon(run) {
+  return TOO_SOON.filter((code) => warningsOf(run, code).length);
+}
+
+// A run that ended early, or too soon, passes no criterion; it can only fail one.
 function verdictState(run, bad) {
   if (bad) return "bad";
-  return run.summary.complete === true ? "good" : null;
+  return run.summary.complete === true && !tooSoon(run).length ? "good" : null;
 }
 
 // The unperturbed run is the value; the members of a repeated run stand below it.
@@ -91,7 +98,9 @@ function stateTile(run) {
   const reason = stop.text || stop.reason || run.summaryProblem || "the summary does not say";
   // how a coast-down went stands with its pictures
   const last = reason.split(/(?<=\.) (?=[A-Z])/).at(-1);
-  return tile("Run", complete ? word : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": ")], verdictState(run, word !== "complete"));
+  const soon = tooSoon(run);
+  const note = soon.length ? `ends too soon for a verdict (${soon.join(", ")})` : null;
+  return tile("Run", complete ? word : "not complete", [[time, complete ? last : reason].filter(Boolean).join(": "), note].filter(Boolean), verdictState(run, word !== "complete"));
 }
 
 // Unbalance angles of the members of a run: it decides whether friction starts backward whirl.
@@ -155,7 +164,6 @@ function distanceTile(run) {
   const open = [
     distancesOf(run).every(({ name }) => magnets.includes(name)) ? "gaps of magnets alone: no seal or sensor is given (rotor.node.clearance)" : null,
     list(run.summary.members).length > 1 ? "of the unperturbed run alone" : null,
-    warningsOf(run, "AB2424").length ? "until the run ends: the rotor has not come to every bearing" : null,
   ].filter(Boolean);
   return tile("Clearances along the shaft", engineeringText(least.clearance - least.displacement, "m", 3), [`least distance, at ${wordsOf(least.name)}`, open], open.length ? null : verdictState(run, false));
 }

@@ -379,10 +379,10 @@ origins! {
     GROWTH: law "largest real part of the eigenvalues of the machine after this event alone, about the steady state at the start: of a cut axis k_s stays, of a lost one neither k_i nor k_s",
         source "crates/levitation/src/closed_loop.rs with the slopes that the event leaves",
         valid "small displacements in the middle, speed of the start; zero, up to round-off, where the rotor falls freely";
-    HELD: law "1 where after the re-levitation the last contact and the last displacement beyond event.within of the clearance, in every bearing, are earlier than the end of the run, or the next loss of all power, less event.hold",
+    HELD: law "1 where after the re-levitation the last contact and the last displacement beyond event.within of the clearance of a bearing, or of the gap to a face, are earlier than the end of the run, or the next loss of all power, less event.hold",
         source "crates/simulate/src/drop/events.rs; the criterion of the user, event.within and event.hold",
         valid "limits of coils as given; without largest_current and slew_rate any controller lifts the rotor";
-    OUTSIDE: law "instant at which the rotor's centre was last beyond event.within of the clearance from the middle of a bearing, at the ends of steps, less that of the re-levitation",
+    OUTSIDE: law "instant at which the rotor's centre was last beyond event.within of the clearance from the middle of a bearing, or of the gap to a face, at the ends of steps, less that of the re-levitation",
         source "crates/model/src/system/machine/record.rs",
         valid "as the run";
     CURRENT: law "largest current of one of the coils, of a linear magnet largest control current, at the ends of steps, until the end of the run or the next loss of all power",

@@ -5,6 +5,7 @@
 
 pub use super::bearing_record::{BearingRecord, Contact};
 use super::{MOST_SPEEDS, Mode, RotorMachine};
+use crate::auxiliary_bearing::AuxiliaryBearingConstants;
 use crate::rotor::{GeometricCentre, RotorAt};
 use crate::system::energy::Content;
 use crate::system::rig::Tap;
@@ -291,7 +292,17 @@ impl Record {
                 let away = machine.node(k, state).position - ground;
                 away.length_squared().sqrt() / clearance
             });
-            let away = away.fold(0.0, f64::max);
+            let rotor = machine.layout().rotor;
+            let along = |bearing: &AuxiliaryBearingConstants| {
+                let place = state[rotor.place()];
+                let faces = bearing.spatial().map_or(&[][..], |own| &own.landing.faces);
+                let shares = faces
+                    .iter()
+                    .map(|face| place / (face.place - face.shoulder));
+                shares.fold(0.0, f64::max)
+            };
+            let bearings = machine.constants.bearings.iter().filter(|_| rotor.axial);
+            let away = away.chain(bearings.map(along)).fold(0.0, f64::max);
             for (_, last) in
                 (self.within.iter().zip(&mut again.outside)).filter(|own| away > *own.0)
             {
