@@ -18,14 +18,12 @@ pub fn text(path: &Path, outcome: &Outcome) -> String {
     rows.extend(steady(outcome));
     let mut text = format!("{}\n", outcome.title);
     if !outcome.stop.complete() {
-        let whose = match outcome.work.members {
-            1 => "",
-            _ => " of the unperturbed run",
+        let begin = match (outcome.work.members, outcome.members.members.first()) {
+            (1, _) => "NOT WHOLE, the values are those until it ended.",
+            (_, Some(0)) => "NOT WHOLE.",
+            _ => "NOT WHOLE, the values of the unperturbed run are those until it ended.",
         };
-        text.push_str(&format!(
-            "NOT WHOLE, the values{whose} are those until it ended. {}\n",
-            outcome.stop.text
-        ));
+        text.push_str(&format!("{begin} {}\n", outcome.stop.text));
     }
     if outcome.stop.complete() && outcome.stop.reason != "finished" {
         let word = outcome.stop.reason.to_uppercase();

@@ -30,7 +30,7 @@ pub fn format(repository: &Repository) -> Outcome {
 pub fn lints(repository: &Repository) -> Outcome {
     let mut outcome = done(
         repository,
-        "clippy --quiet --profile test --package auxbear --lib --no-default-features --locked -- \
+        "clippy --quiet --package auxbear --lib --no-default-features --locked -- \
          -D warnings -D clippy::disallowed_methods -D clippy::disallowed_types",
     );
     let everywhere = "clippy --quiet --profile test --workspace --all-targets --locked";

@@ -1,6 +1,8 @@
 //! What an unknown key was probably meant to be, and what may stand in its place.
 
 use crate::key::Key;
+use crate::measured::MEASURED;
+use crate::several::{AUXILIARY_BEARING, LIMIT, VARY};
 use crate::system::SystemName;
 use crate::table;
 use problem::question;
@@ -8,6 +10,15 @@ use units::nearest_names;
 
 /// Most names of a section that a message lists.
 const MOST_NAMES: usize = 14;
+
+/// Lists of tables that a file of a system may have.
+fn lists(system: SystemName) -> impl Iterator<Item = &'static str> {
+    let of_drops = [AUXILIARY_BEARING, MEASURED, VARY];
+    let of_drops = of_drops.into_iter();
+    of_drops
+        .filter(move |_| system.has_auxiliary_bearings())
+        .chain([LIMIT])
+}
 
 /// What may stand where the unknown key stands.
 pub fn allowed_near(path: &[String], system: SystemName) -> String {
@@ -17,6 +28,7 @@ pub fn allowed_near(path: &[String], system: SystemName) -> String {
         let sections = table::sections_of(system).filter(|section| !section.path.contains('.'));
         keys.map(|key| key.path)
             .chain(sections.map(|section| section.path))
+            .chain(lists(system))
             .collect()
     } else {
         table::keys_of(system)
@@ -68,6 +80,7 @@ pub fn meant(path: &[String], system: SystemName) -> Option<String> {
         table::keys_of(system)
             .map(|key| key.path)
             .chain(table::sections_of(system).map(|section| section.path))
+            .chain(lists(system))
     };
     let last = |path: &'static str| path.rsplit('.').next().unwrap_or(path);
     let inside = |path: &str| path.rsplit_once('.').map_or("", |(section, _)| section) == section;

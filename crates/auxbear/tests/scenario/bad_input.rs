@@ -60,7 +60,7 @@ fn an_unknown_key_names_the_near_one() {
     );
     assert_eq!(
         message("[rotor]", "[rotr]"),
-        "error[AB0101]: drop.toml:4: rotr: found an unknown section; the top level takes format, system, title, description, catalogue, planes, rotor, gravity, levitation, contact, mount, base, bearing, run, coast_down, heat, repeat. Did you mean \"rotor\"?"
+        "error[AB0101]: drop.toml:4: rotr: found an unknown section; the top level takes format, system, title, description, catalogue, planes, rotor, gravity, levitation, contact, mount, base, bearing, run, coast_down, heat, repeat, auxiliary_bearing, measured, vary, limit. Did you mean \"rotor\"?"
     );
     assert_eq!(
         message("bore_diameter", "bearing.bore"),

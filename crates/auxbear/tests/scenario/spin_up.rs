@@ -151,7 +151,7 @@ fn names_are_near_only_within_the_system() {
     assert!(shown.contains("auxbear new spin_up lists them"), "{shown}");
     assert_eq!(
         message("[drive]", "[drvie]"),
-        "error[AB0101]: spin_up.toml:4: drvie: found an unknown section; the top level takes format, system, title, description, catalogue, drive, bearing, run, heat. Did you mean \"drive\"?"
+        "error[AB0101]: spin_up.toml:4: drvie: found an unknown section; the top level takes format, system, title, description, catalogue, drive, bearing, run, heat, limit. Did you mean \"drive\"?"
     );
 }
 
