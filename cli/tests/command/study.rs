@@ -450,7 +450,8 @@ fn what_is_no_selection_is_refused() {
 #[cfg(unix)]
 #[test]
 fn a_link_to_a_study_is_that_study() {
-    let place = place(&STUDY.replace("members = 130", "members = 3"));
+    let study = STUDY.replace("members = 130", "members = 3");
+    let place = place(&study.replace("duration=8 ms", "duration=100 ms"));
     place.call(&["study", "study.toml", "--out", "own"]).done();
     std::os::unix::fs::symlink(place.path("own"), place.path("link")).unwrap();
     let called = place.call(&["study", "study.toml", "--out", "link"]).done();

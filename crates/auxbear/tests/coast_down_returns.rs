@@ -1,7 +1,7 @@
 //! Coast-downs of rotors that do not go on rolling.
 
 use crate::coast_down::{SHIPPED, adds_up_by_bodies, list, number, parsed};
-use auxbear::outcome::{Outcome, Value, Warning};
+use auxbear::outcome::{Outcome, Value, Verdict, Warning};
 use auxbear::run::{Options, run};
 use std::sync::atomic::AtomicBool;
 
@@ -211,8 +211,17 @@ fn a_drop_that_ends_before_its_spin_up_says_so_and_rolls_all_the_same() {
     let with = |duration: &str| {
         let duration = format!("run.duration={duration}");
         let sets = ["rotor.unbalance_eccentricity=0.5 um", &duration];
-        let scenario = parsed(SHIPPED, &sets).unwrap();
+        let limits = "[[limit]]\nquantity = \"inner_race_time_to_95_percent\"\nmost = \"1 s\"\n\
+            [[limit]]\nquantity = \"peak_contact_force\"\nmost = \"50 kN\"\n";
+        let scenario = parsed(&format!("{SHIPPED}\n{limits}"), &sets).unwrap();
         run(&scenario, &Options::unwatched(&never)).unwrap()
+    };
+    let verdicts = |found: &Outcome, wanted: Verdict| {
+        assert!(
+            found.limits.iter().all(|own| own.verdict == wanted),
+            "{:?}",
+            found.limits
+        );
     };
     let early = |found: &Outcome| -> Option<String> {
         let each = found.warnings.iter();
@@ -222,9 +231,12 @@ fn a_drop_that_ends_before_its_spin_up_says_so_and_rolls_all_the_same() {
     };
     let whole = with("3 s");
     assert_eq!(early(&whole), None);
+    verdicts(&whole, Verdict::Pass);
     for (duration, says) in [("10 ms", "still come to their speed"), ("1 ms", "landed")] {
         let found = with(duration);
         assert!(early(&found).unwrap().contains(says));
+        // it lasted for longer than the bound, and nobody watched for it
+        verdicts(&found, Verdict::Undecided);
         for name in ["stop_time", "peak_inner_race_temperature"] {
             let name = format!("coast_down.{name}");
             let ratio = number(&found, &name) / number(&whole, &name);

@@ -8,3 +8,4 @@ mod physics;
 mod rig;
 mod spatial;
 mod spin_up;
+mod turns;

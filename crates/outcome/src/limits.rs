@@ -210,7 +210,7 @@ pub fn of(scenario: &Scenario, outcome: &Outcome, declared: &[&'static Declared]
         // what it was until then
         if let ([None], Some(Value::Number(value))) = (&values[..], quantity.map(|own| &own.value))
         {
-            judged.value = Some(*value);
+            judged.value = Some(sized(limit, *value));
         }
         let judged = match seeks_whirl(limit, &outcome.quantities, declared) {
             true => whirl_sought(judged, angles.len().max(1), slips_in(outcome)),

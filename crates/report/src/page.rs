@@ -7,6 +7,7 @@
 
 use super::closely;
 use super::page_summary::for_page;
+use outcome::limits::UNFINISHED;
 pub use outcome::table::Column as PageColumn;
 use recording::file::parquet::arrow_schema::push_base64;
 use serde_json::{Value, json};
@@ -111,8 +112,9 @@ pub fn html(runs: &[PageRun]) -> String {
 
 /// All scripts of the page of runs in one scope, with what begins them: another page may draw with them what this one draws.
 pub fn script(start: &str) -> String {
+    let too_soon = UNFINISHED.map(|(code, _)| code);
     format!(
-        "\"use strict\";\n(() => {{\n{}{start}}})();\n",
+        "\"use strict\";\n(() => {{\nconst TOO_SOON = {too_soon:?};\n{}{start}}})();\n",
         SCRIPTS.concat()
     )
 }

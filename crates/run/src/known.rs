@@ -59,7 +59,7 @@ pub(super) fn joined(before: impl Iterator<Item = Warning>, found: Vec<Warning>)
 fn sags(drop: &Drop, part: &AuxiliaryBearing, load: f64) -> impl Iterator<Item = Warning> {
     let mount = &part.mount;
     let along = match part.contact.faces.any() {
-        true => (drop.body.mass * drop.gravity.axial).abs(),
+        true => (drop.body.mass * drop.gravity.axial).abs() / part.planes,
         false => 0.0,
     };
     let ways = [

@@ -19,9 +19,7 @@ function tile(title, value, notes, state) {
   );
 }
 
-// Warnings of runs that end too soon for a verdict.
-const TOO_SOON = ["AB2083", "AB2085", "AB2324", "AB2423", "AB2424", "AB2426"];
-
+// Warnings that a run ends too soon for a verdict.
 function tooSoon(run) {
   return TOO_SOON.filter((code) => warningsOf(run, code).length);
 }

@@ -345,7 +345,8 @@ fn too_short(context: &Context, k: usize) -> Option<Graded> {
         Some(given) => {
             context.finished.record.lost.is_none() || given.events.iter().any(Event::relevitates)
         }
-        None => drop.levitation.stiffness > 0.0,
+        // what levitates the rotor of a drop ends with the release, at the start
+        None => false,
     };
     if drop.coast_down.is_some() || held {
         return None;
