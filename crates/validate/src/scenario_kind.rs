@@ -5,7 +5,7 @@
 
 use super::inputs::{Computed, Inputs};
 use super::simulator::Simulator;
-use auxbear::outcome::Value;
+use auxbear::outcome::{Scope, Value, Verdict};
 use auxbear::run::Options;
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::sync::atomic::AtomicBool;
@@ -53,7 +53,26 @@ pub(super) fn scenario(
         }
     }
     all.extend(outcome.limits.iter().map(|judged| {
-        let broken = (judged.members - judged.hold) as f64 / judged.members.max(1) as f64;
+        // members that end too soon to hold it do not break it
+        let limit = &judged.limit;
+        let breaks = |value: &&f64| !limit.side.holds(**value, limit.bound);
+        let count = match &limit.forbids {
+            _ if judged.members <= 1 => usize::from(judged.verdict == Verdict::Fail),
+            Some(forbids) => {
+                let came = outcome.warnings.iter();
+                let came = came.filter(|own| forbids.meets(own.code, own.severity));
+                let counts = came.map(|own| match own.scope {
+                    Scope::Each { count, .. } => count,
+                    Scope::Alike | Scope::Unperturbed => judged.members,
+                });
+                counts.max().unwrap_or(0)
+            }
+            None => {
+                let values = outcome.members.decisive(&limit.quantity, limit.bound);
+                values.iter().flatten().filter(breaks).count()
+            }
+        };
+        let broken = count as f64 / judged.members.max(1) as f64;
         computed(format!("broken.{}", judged.limit.quantity), "", broken)
     }));
     Ok(all)
