@@ -7,7 +7,7 @@ use crate::{console, summary};
 use auxbear::outcome::Stop;
 use auxbear::outcome::options::Controllers;
 use auxbear::problem::{Code, Problem, Result};
-use auxbear::report::directory::NewDirectory;
+use auxbear::report::directory::{NewDirectory, path_of_run};
 use auxbear::run::Options;
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::num::NonZeroUsize;
@@ -34,7 +34,8 @@ pub fn perform(wish: &Run) -> Result<Exit> {
     let scenario = Scenario::read(&wish.given.file, &sets, &BuiltIn)?;
     #[cfg(feature = "fmu")]
     let scenario = auxbear_fmu::controller::checked(&scenario)?.unwrap_or(scenario);
-    let path = wish.output.place(&wish.given.name());
+    let free = || path_of_run(&wish.given.name(), &scenario);
+    let path = wish.output.out.clone().unwrap_or_else(free);
     execute(&scenario, &path, threads, wish.output.quiet)
 }
 
@@ -74,11 +75,19 @@ pub fn execute(
     let busy = (!quiet).then(|| Busy::building(scenario));
     let machine = auxbear::run::build(scenario).inspect_err(|_| progress.end())?;
     drop(busy);
-    let directory = NewDirectory::reserve(path).inspect_err(|_| progress.end())?;
+    let directory =
+        NewDirectory::of_run(path, scenario, machine.members()).inspect_err(|_| progress.end())?;
+    match directory.there() {
+        0 => {}
+        there => console::report(&format!(
+            "goes on: {there} of {} members are there",
+            machine.members()
+        )),
+    }
     if let Ok(mut partial) = PARTIAL.lock() {
         *partial = Some(directory.partial().to_path_buf());
     }
-    let outcome = machine.run(&options);
+    let outcome = machine.run_kept(&options, directory.store());
     progress.end();
     directory.finish(scenario, &outcome)?;
     let printed = match quiet {
@@ -94,8 +103,12 @@ pub fn execute(
         _ => "run failed",
     };
     let text = outcome.stop.text.trim_end_matches('.');
+    let goes_on = match exit == Exit::Interrupted && machine.members() > 1 {
+        true => "; the same call goes on from there",
+        false => "",
+    };
     console::report(&format!(
-        "{word}: {text}. What was computed is in {}",
+        "{word}: {text}. What was computed is in {}{goes_on}",
         path.display()
     ));
     Ok(exit)
@@ -122,7 +135,10 @@ pub fn listen(keeps: bool) {
         };
         match partial.as_ref() {
             Some(partial) if again => {
-                let _ = fs::remove_dir_all(partial);
+                // members of a repetition stay: the next call goes on from them
+                if !NewDirectory::has_members(partial) {
+                    let _ = fs::remove_dir_all(partial);
+                }
             }
             Some(_) => return,
             None if keeps && !again => return,

@@ -148,6 +148,9 @@ impl Table {
 
     /// The same with the members in their order.
     pub fn sorted(mut self) -> Table {
+        if self.members.is_sorted() {
+            return self;
+        }
         let mut order: Vec<usize> = (0..self.members.len()).collect();
         order.sort_by_key(|row| self.members[*row]);
         self.members = order.iter().map(|row| self.members[*row]).collect();

@@ -179,6 +179,11 @@ impl Warning {
         self.code == kind.code
     }
 
+    /// Whether its sentences name its part.
+    pub fn names_part(&self) -> bool {
+        self.names_part
+    }
+
     /// The same of a part; one without a name adds nothing.
     pub fn of_part(mut self, name: &str) -> Warning {
         if !name.is_empty() {

@@ -8,14 +8,18 @@
 //! a process that was killed, and the next takes it over.
 
 use super::figures::with_figures;
+use super::members::{self, Kept, MEMBERS};
 use super::page::{self, PageColumn, PageRun};
 use super::picture;
+pub use super::place::{RUNS, free_path, free_path_in, path_of_run};
+use super::place::{has_members_of, was_interrupted};
 use super::{history, summary};
 use outcome::{Attached, Stop};
 use problem::open_file;
 use problem::{Code, Problem, Result};
 use recording::Channel;
 use run::Outcome;
+use run::study::kept::{Nowhere, Store};
 use scenario::Scenario;
 use std::collections::BTreeMap;
 use std::ffi::OsString;
@@ -43,11 +47,37 @@ pub struct NewDirectory {
     partial: PathBuf,
     /// The partial directory, locked; none where the system locks no directories.
     lock: Option<File>,
+    /// Where a repetition keeps its members.
+    kept: Option<Kept>,
 }
 
 impl NewDirectory {
     /// Reserves the place. What exists there is never touched: it is a problem.
     pub fn reserve(path: &Path) -> Result<NewDirectory> {
+        NewDirectory::reserved(path, |_| false)
+    }
+
+    /// Reserves the place of a run of so many members. What a run of the same scenario has left there that was killed or interrupted
+    /// stays: a repetition goes on from its members.
+    pub fn of_run(path: &Path, scenario: &Scenario, members: usize) -> Result<NewDirectory> {
+        if members < 2 {
+            return NewDirectory::reserve(path);
+        }
+        let resolved = scenario.resolved.toml();
+        if let Some(partial) = partial_of(path)
+            && !exists(&partial)
+            && was_interrupted(path, &resolved)
+        {
+            fs::rename(path, &partial).map_err(|error| misplaced(path, &error))?;
+        }
+        let mut own = NewDirectory::reserved(path, |partial| has_members_of(partial, &resolved))?;
+        own.file(SCENARIO, |file| file.write_all(resolved.as_bytes()))?;
+        own.kept = Some(Kept::of(&own.partial, members));
+        Ok(own)
+    }
+
+    /// Reserves the place; `stays` says of what a killed process left whether it is taken over as it is.
+    fn reserved(path: &Path, stays: impl FnOnce(&Path) -> bool) -> Result<NewDirectory> {
         if exists(path) {
             return Err(taken(path));
         }
@@ -72,7 +102,9 @@ impl NewDirectory {
             },
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
                 let left = locked(&partial).map_err(|_| in_use())?;
-                empty_leftover(&partial).map_err(|_| in_use())?;
+                if !stays(&partial) {
+                    empty_leftover(&partial).map_err(|_| in_use())?;
+                }
                 Some(left)
             }
             Err(error) => return Err(misplaced(&partial, &error)),
@@ -81,7 +113,26 @@ impl NewDirectory {
             path: path.to_path_buf(),
             partial,
             lock,
+            kept: None,
         })
+    }
+
+    /// Where a repetition keeps its members; none of a run that is not repeated.
+    pub fn store(&self) -> &dyn Store {
+        match &self.kept {
+            Some(kept) => kept,
+            None => &Nowhere,
+        }
+    }
+
+    /// Whether a directory has members of a repetition.
+    pub fn has_members(path: &Path) -> bool {
+        path.join(MEMBERS).is_dir()
+    }
+
+    /// Members that an earlier run of the same scenario has left here.
+    pub fn there(&self) -> usize {
+        self.kept.as_ref().map_or(0, Kept::there)
     }
 
     /// The directory as it is called until it is finished.
@@ -156,6 +207,10 @@ impl NewDirectory {
         };
         let html = page::html(&[run]);
         written.push(self.file(REPORT, |file| file.write_all(html.as_bytes())));
+        written.push(match &self.kept {
+            Some(kept) => kept.problem().map_or(Ok(()), Err),
+            None => members::write_all(&self.partial, &outcome.members),
+        });
         written.into_iter().collect::<Result<(), _>>()?;
         self.named()
     }
@@ -201,7 +256,7 @@ impl NewDirectory {
         fill: impl FnOnce(&mut File) -> std::io::Result<()>,
     ) -> Result<()> {
         let place = self.partial.join(name);
-        File::create_new(&place)
+        File::create(&place)
             .and_then(|mut file| {
                 fill(&mut file)
                     .and_then(|()| file.sync_all())
@@ -216,7 +271,9 @@ impl NewDirectory {
 impl Drop for NewDirectory {
     /// After a rename there is nothing left of this name to remove, or what is there is another run's.
     fn drop(&mut self) {
-        if (self.lock.as_ref()).is_none_or(|lock| is_at(lock, &self.partial)) {
+        if !NewDirectory::has_members(&self.partial)
+            && (self.lock.as_ref()).is_none_or(|lock| is_at(lock, &self.partial))
+        {
             let _ = fs::remove_dir_all(&self.partial);
         }
     }
@@ -263,24 +320,6 @@ fn columns_of(outcome: &Outcome) -> Vec<PageColumn> {
 /// Writes the run directory of a finished run.
 pub fn write(path: &Path, scenario: &Scenario, outcome: &Outcome) -> Result<()> {
     NewDirectory::reserve(path)?.finish(scenario, outcome)
-}
-
-/// The directory that a run gets where none is asked for: `runs/NAME`, or `runs/NAME-2` and so on where that is taken.
-pub fn free_path(name: &str) -> PathBuf {
-    free_path_in(Path::new(RUNS), name)
-}
-
-/// Folder of the run directories that nobody gave another place.
-pub const RUNS: &str = "runs";
-
-/// The same in a folder of run directories.
-pub fn free_path_in(runs: &Path, name: &str) -> PathBuf {
-    let first = runs.join(name);
-    let others = (2..).map(|number| runs.join(format!("{name}-{number}")));
-    std::iter::once(first.clone())
-        .chain(others)
-        .find(|path| !exists(path) && !partial_of(path).is_some_and(|path| exists(&path)))
-        .unwrap_or(first)
 }
 
 /// Most bytes of a summary or scenario that is read.
@@ -440,7 +479,7 @@ pub(super) fn exists(path: &Path) -> bool {
     fs::symlink_metadata(path).is_ok()
 }
 
-fn partial_of(path: &Path) -> Option<PathBuf> {
+pub(super) fn partial_of(path: &Path) -> Option<PathBuf> {
     with_end(path, "partial")
 }
 

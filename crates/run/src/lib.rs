@@ -37,6 +37,7 @@ pub use simulate::drop::driven_columns::Variable;
 pub use simulate::simulation::{Input, Simulation};
 use simulate::{coast_down, drop, rig, spin_up};
 use std::sync::Arc;
+use study::kept::{Nowhere, Store};
 
 /// A scenario with its machine: everything wrong with the input has been reported.
 pub struct Machine<'a> {
@@ -125,9 +126,22 @@ pub fn of_other_cases(scenario: &Scenario, own: &Machine) -> Result<Vec<Quantity
 impl Machine<'_> {
     /// Simulates it. A run that fails is an [`Outcome`] whose `stop` says where and why.
     pub fn run(&self, options: &Options) -> Outcome {
-        let (mut outcome, seconds) = host::timed(|| self.computed(options));
+        self.run_kept(options, &Nowhere)
+    }
+
+    /// The same; a repetition keeps its members in a store as they end, and goes on from those that are there.
+    pub fn run_kept(&self, options: &Options, store: &dyn Store) -> Outcome {
+        let (mut outcome, seconds) = host::timed(|| self.computed(options, store));
         outcome.work.seconds = seconds;
         self.judged(outcome)
+    }
+
+    /// How many members its run has.
+    pub fn members(&self) -> usize {
+        match &self.system {
+            Model::Drop(built, _) => study::repeat::count(&built.drop),
+            _ => 1,
+        }
     }
 
     /// What came out of the machine that was driven from outside until now, judged as a run of it.
@@ -181,9 +195,9 @@ impl Machine<'_> {
         driven.map_err(|problem| self.scenario.locate(problem))
     }
 
-    fn computed(&self, options: &Options) -> Outcome {
+    fn computed(&self, options: &Options, store: &dyn Store) -> Outcome {
         match &self.system {
-            Model::Drop(built, others) => self.dropped(built, others, options),
+            Model::Drop(built, others) => self.dropped(built, others, options, store),
             Model::SpinUp(of, built) => spin_up::run(self.scenario, of, built, options),
             Model::Torque(asked) => torque::run(self.scenario, asked),
             Model::Signals(asked) => signals::run(self.scenario, asked, options),
@@ -199,8 +213,9 @@ impl Machine<'_> {
         built: &Arc<drop::build::DropModel>,
         others: &[Arc<study::repeat::Member>],
         options: &Options,
+        store: &dyn Store,
     ) -> Outcome {
-        let mut outcome = study::repeat::run(self.scenario, built, others, options);
+        let mut outcome = study::repeat::run(self.scenario, built, others, options, store);
         if let Some(shaft) = &built.drop.shaft {
             let changes = cutoff::changes(self.scenario, shaft, &outcome.quantities, options);
             outcome.quantities.extend(changes);

@@ -5,11 +5,11 @@
 
 mod bars;
 mod cells;
+mod csv;
 mod document;
 mod estimate;
 mod page;
 mod parallel;
-mod part;
 mod qualify;
 mod ranking;
 mod summary;
@@ -19,26 +19,20 @@ pub use qualify::{Qualified, Wish};
 pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
-use outcome::host::{self, bounded};
+use super::members::{self, MEMBERS};
+use outcome::host;
 use problem::{Code, Problem, Result};
 use run::Options;
 use run::study::answer::Answer;
 use run::study::table::{Table, Warned, warned};
-use run::study::{PART, Study};
+use run::study::{Study, parts};
 use scenario::StudyFile;
 use std::fs::{self, File, TryLockError};
 use std::io::Write;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 const STUDY: &str = "study.toml";
-const MEMBERS: &str = "members";
 const TABLE: &str = "members.csv";
-/// Members that a thread has at a time, at most and at first: so that its lanes stay full, and what is not written is soon done again.
-const A_THREAD: usize = 64;
-const AT_FIRST: usize = 16;
-/// What takes less time than this is written with more, s.
-const SOON: f64 = 10.0;
 /// Computing time after which the results so far are written, s.
 const INTERIM: f64 = 60.0;
 /// What a study says in words: its document changes with them, and nothing that is computed.
@@ -135,8 +129,8 @@ impl Directory {
             text_file(&path.join(SCENARIO), &scenario)?;
             text_file(&known, &headed(&study.file))?;
         }
-        let places = (0..part_count(&study)).map(|part| part_path(path, part));
-        let counts = (places.filter(|part| part.exists())).map(|part| part::count(&part));
+        let places = (0..part_count(&study)).map(|part| members::path(path, part));
+        let counts = (places.filter(|part| part.exists())).map(|part| members::count(&part));
         let there = counts.sum::<Result<usize>>()?;
         Ok(Directory {
             path: path.to_path_buf(),
@@ -173,24 +167,15 @@ impl Directory {
             let there = self.part_there(part)?.members;
             lacking.extend(members_of(&self.study, part).filter(|own| !there.contains(own)));
         }
-        let threads = options.threads.map_or_else(host::threads, bounded);
-        // a kill takes what is not written: members of seconds are written by few, those of milliseconds by many
-        let (mut size, most) = (threads * AT_FIRST, (threads * A_THREAD).max(PART));
         let (mut done, mut since) = (self.there, 0.0);
-        let mut rest = &lacking[..];
-        while !rest.is_empty() {
-            let some;
-            (some, rest) = rest.split_at(size.min(rest.len()));
+        parts::in_turns(&lacking, options, |some| {
             let plan = Options {
                 progress: &|fraction| progress(done as f64 + fraction * some.len() as f64),
                 ..*options
             };
             // of an interrupted run those that had ended
             let (fresh, seconds) = host::timed(|| self.study.run(some, &plan));
-            if seconds < SOON {
-                size = most.min(2 * size);
-            }
-            for part in some[0] / PART..=some[some.len() - 1] / PART {
+            for part in parts::part_of(some[0])..=parts::part_of(some[some.len() - 1]) {
                 let members = members_of(&self.study, part);
                 let of_part = |member: &usize| members.contains(member);
                 let begin = fresh.members.iter().position(of_part).unwrap_or(0);
@@ -201,22 +186,19 @@ impl Directory {
                 let mut kept = self.part_there(part)?;
                 kept.append(fresh.part(begin..begin + count));
                 let table = self.study.in_order(kept.sorted());
-                aside(&part_path(&self.path, part), |file| {
-                    part::write(file, &table).map_err(super::directory::io_error)
+                aside(&members::path(&self.path, part), |file| {
+                    members::write(file, &table).map_err(super::directory::io_error)
                 })?;
             }
             done += fresh.members.len();
-            if options.interrupt.load(Ordering::Relaxed) {
-                break;
-            }
             progress(done as f64);
             since += seconds;
             if since > INTERIM {
                 since = 0.0;
                 interim()?;
             }
-        }
-        Ok(())
+            Ok(())
+        })
     }
 
     /// Parts of which members are not there.
@@ -235,9 +217,13 @@ impl Directory {
 
     /// The members of a part that are there.
     fn part_there(&self, part: usize) -> Result<Table> {
-        let place = part_path(&self.path, part);
+        let place = members::path(&self.path, part);
         match place.exists() {
-            true => part::read(&place, &self.study, &members_of(&self.study, part)),
+            true => members::read(
+                &place,
+                &self.study.input_columns(),
+                &members_of(&self.study, part),
+            ),
             false => Ok(Table::default()),
         }
     }
@@ -247,16 +233,16 @@ impl Directory {
     /// # Errors
     /// What cannot be written, and what is no such part.
     pub fn put(&self, part: usize, bytes: &[u8]) -> Result<()> {
-        let place = part_path(&self.path, part);
+        let place = members::path(&self.path, part);
         aside(&place, |mut file| file.write_all(bytes))?;
         let wanted = members_of(&self.study, part);
-        match part::read(&place, &self.study, &wanted) {
+        match members::read(&place, &self.study.input_columns(), &wanted) {
             Ok(table) if table.members.len() == wanted.len() => Ok(()),
             other => {
                 let _ = fs::remove_file(&place);
                 Err(match other {
                     Err(problem) => problem,
-                    Ok(_) => part::damaged(&place, "a part without some of its members"),
+                    Ok(_) => members::damaged(&place, "a part without some of its members"),
                 })
             }
         }
@@ -283,7 +269,13 @@ impl Directory {
         }
         let place = confirmed_path(&self.path);
         if place.exists()
-            && part::read(&place, &self.study, &(0..self.study.members()))?.members == near
+            && members::read(
+                &place,
+                &self.study.input_columns(),
+                &(0..self.study.members()),
+            )?
+            .members
+                == near
         {
             return Ok(());
         }
@@ -294,7 +286,7 @@ impl Directory {
         match self.study.confirmed(&near, &quiet) {
             None => Ok(()),
             Some(table) => aside(&place, |file| {
-                part::write(file, &table).map_err(super::directory::io_error)
+                members::write(file, &table).map_err(super::directory::io_error)
             }),
         }
     }
@@ -308,7 +300,7 @@ impl Directory {
             answer.estimate = self.study.estimate(&table, options);
         }
         let json = summary::json(&self.study, &table, &answer, complete);
-        text_file(&self.path.join(TABLE), &part::csv(&self.study, &table))?;
+        text_file(&self.path.join(TABLE), &csv::csv(&self.study, &table))?;
         text_file(&self.path.join(SUMMARY), &json)?;
         let html = page::html(&self.study, &table, &answer);
         text_file(&self.path.join(REPORT), &html)?;
@@ -333,8 +325,8 @@ pub fn part(study: &Study, part: usize, options: &Options) -> Option<Result<Vec<
     }
     let table = table.part(0..table.members.len());
     let mut bytes = Vec::new();
-    let written = part::write(&mut bytes, &table).map(|()| bytes);
-    Some(written.map_err(|error| part::damaged(Path::new(MEMBERS), error.to_string())))
+    let written = members::write(&mut bytes, &table).map(|()| bytes);
+    Some(written.map_err(|error| members::damaged(Path::new(MEMBERS), error.to_string())))
 }
 
 /// Reads a study directory back: the study, and the members that are there.
@@ -352,7 +344,7 @@ fn table_of(path: &Path, study: &Study) -> Result<Table> {
     let mut table = screened(path, study)?;
     let confirmed = confirmed_path(path);
     if confirmed.exists() {
-        let read = part::read(&confirmed, study, &(0..study.members()))?;
+        let read = members::read(&confirmed, &study.input_columns(), &(0..study.members()))?;
         study.with_confirmed(&mut table, &read);
     }
     Ok(table)
@@ -362,9 +354,13 @@ fn table_of(path: &Path, study: &Study) -> Result<Table> {
 fn screened(path: &Path, study: &Study) -> Result<Table> {
     let mut table = Table::default();
     for part in 0..part_count(study) {
-        let place = part_path(path, part);
+        let place = members::path(path, part);
         if place.exists() {
-            table.append(part::read(&place, study, &members_of(study, part))?);
+            table.append(members::read(
+                &place,
+                &study.input_columns(),
+                &members_of(study, part),
+            )?);
         }
     }
     Ok(study.in_order(table))
@@ -437,15 +433,11 @@ fn only_begun(path: &Path) -> bool {
 }
 
 fn part_count(study: &Study) -> usize {
-    study.members().div_ceil(PART)
+    parts::count(study.members())
 }
 
 fn members_of(study: &Study, part: usize) -> std::ops::Range<usize> {
-    part * PART..((part + 1) * PART).min(study.members())
-}
-
-fn part_path(path: &Path, part: usize) -> PathBuf {
-    path.join(MEMBERS).join(format!("{part:04}.parquet"))
+    parts::members(part, study.members())
 }
 
 /// Members at design accuracy.

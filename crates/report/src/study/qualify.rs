@@ -7,16 +7,17 @@
 //! Each stage keeps what it computed as it goes, and the next call computes what is missing.
 
 use super::document::Document;
-use super::{A_THREAD, Directory, Done, confirmed_path, headed, part, table_of, text_file};
+use super::{Directory, Done, confirmed_path, headed, table_of, text_file};
 use crate::directory::{aside, io_error, page_run};
 use crate::history::{self, View};
+use crate::members;
 use crate::page::PageRun;
-use outcome::host::{self, bounded};
-use problem::{Result, open_file};
+use problem::{Problem, Result, open_file};
 use run::Options;
 use run::study::answer::Answer;
 use run::study::in_a_row::InARow;
 use run::study::little_known::LittleKnown;
+use run::study::parts;
 use run::study::selection::Candidate;
 use run::study::table::{Column, Table};
 use sha2::{Digest, Sha256};
@@ -99,7 +100,7 @@ impl Directory {
         let tally = self.document(&table, &besides, wish, options)?;
         let place = confirmed_path(&self.path);
         let confirmed = if place.exists() {
-            part::count(&place)?
+            members::count(&place)?
         } else {
             0
         };
@@ -130,7 +131,7 @@ impl Directory {
         let all = deciding.len() * known.len() * 2;
         let place = self.kept("ends.parquet");
         let mut kept = match place.exists() {
-            true => part::read(&place, study, &(0..all.max(1)))?,
+            true => members::read(&place, &study.input_columns(), &(0..all.max(1)))?,
             false => Table::default(),
         };
         // of other deciding members nothing can be kept
@@ -147,9 +148,8 @@ impl Directory {
             kept = Table::default();
         }
         let missing: Vec<usize> = (0..all).filter(|row| !kept.members.contains(row)).collect();
-        let threads = options.threads.map_or_else(host::threads, bounded);
         let told = |done: f64| (wish.progress)("runs with other inputs", done, all);
-        for some in missing.chunks(A_THREAD * threads) {
+        parts::in_turns(&missing, options, |some| {
             let done = kept.members.len() as f64;
             told(done);
             let plan = Options {
@@ -159,12 +159,10 @@ impl Directory {
             kept.append(study.with_ends(&deciding, &known, some, &plan));
             kept = study.in_order(std::mem::take(&mut kept).sorted());
             if !kept.members.is_empty() {
-                aside(&place, |file| part::write(file, &kept).map_err(io_error))?;
+                aside(&place, |file| members::write(file, &kept).map_err(io_error))?;
             }
-            if options.interrupt.load(Ordering::Relaxed) {
-                break;
-            }
-        }
+            Ok::<(), Box<Problem>>(())
+        })?;
         Ok((known, kept))
     }
 
@@ -173,7 +171,7 @@ impl Directory {
         let rows = self.study.in_a_row(table);
         let place = self.kept("in_a_row.parquet");
         let kept = match place.exists() {
-            true => part::read(&place, &self.study, &(0..usize::MAX))?,
+            true => members::read(&place, &self.study.input_columns(), &(0..usize::MAX))?,
             false => Table::default(),
         };
         let all: usize = rows.iter().map(|row| row.drops).sum();
@@ -185,7 +183,7 @@ impl Directory {
             .study
             .run_in_a_row(&rows, kept, &quiet, &mut |table: &Table| {
                 (wish.progress)("drops in a row", table.members.len() as f64, all);
-                aside(&place, |file| part::write(file, table).map_err(io_error))
+                aside(&place, |file| members::write(file, table).map_err(io_error))
             })?;
         Ok((rows, table))
     }
@@ -194,7 +192,7 @@ impl Directory {
     fn predicted(&self, options: &Options, wish: &Wish) -> Result<Vec<Column>> {
         let place = self.kept("predicted.parquet");
         if place.exists() {
-            let damaged = |error: String| part::damaged(&place, error);
+            let damaged = |error: String| members::damaged(&place, error);
             let file = open_file(&place).map_err(|error| damaged(error.to_string()))?;
             return history::read(file, &place).map_err(|error| damaged(error.to_string()));
         }

@@ -11,6 +11,7 @@
 //! Valid: near û the curves follow the inputs on straight lines; errors of the model that no input can cure are in s² and τ alone.
 
 use super::Study;
+use super::kept::Nowhere;
 use super::table::Table;
 use crate::Options;
 use crate::measured::{self, Curve, Fitted, Residuals};
@@ -312,7 +313,7 @@ impl<const N: usize> Fit<'_, N> {
             rows: None,
         };
         let scenario = file.scenario.with(&values).ok()?;
-        let outcome = crate::built(&scenario).ok()?.computed(&quiet);
+        let outcome = crate::built(&scenario).ok()?.computed(&quiet, &Nowhere);
         outcome.stop.complete().then_some(outcome)
     }
 

@@ -2,7 +2,7 @@
 //!
 //! | page | subject |
 //! |---|---|
-//! | here | a study ready to run; its members, one after the other in parts of [`PART`] |
+//! | here | a study ready to run; its members |
 //! | [`table`] | drawn inputs beside results, a row a member |
 //! | [`selection`] | candidates judged by their limits and ranked |
 //! | [`confirm`] | members near a limit, once more at design accuracy |
@@ -12,6 +12,8 @@
 //! | [`in_a_row`] | drops in a row, with the wear of those before |
 //! | [`estimate`] | inputs that measured curves determine |
 //! | [`predicted`] | signals of a test with their bands |
+//! | [`parts`] | members that stand in a file together, and how many are computed at a time |
+//! | [`kept`] | what is kept of the members of a repetition, and where |
 //! | `repeat` | a run that is repeated: perturbed starts, machines that differ |
 
 pub mod answer;
@@ -19,7 +21,9 @@ pub mod confirm;
 pub mod estimate;
 pub mod failure_modes;
 pub mod in_a_row;
+pub mod kept;
 pub mod little_known;
+pub mod parts;
 pub mod predicted;
 pub(crate) mod repeat;
 pub mod selection;
@@ -32,9 +36,6 @@ use scenario::{CASE, Distribution, Scenario, StudyFile};
 use statistics::design::Coordinate;
 use std::sync::atomic::AtomicBool;
 use table::{Column, Table};
-
-/// Members of a part.
-pub const PART: usize = 64;
 
 /// Runs a scenario with each of these lists of changes, paths with their values as an override has them: a row each, results
 /// alone. Values that are refused are the reason of a failed row; a change that no value could cure, such as an unknown key, is a

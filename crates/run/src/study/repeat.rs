@@ -1,25 +1,21 @@
 //! A repetition: a study of starts that are perturbed and machines that differ, whose first member is kept whole.
 //!
-//! What is kept of the others are their results, their warnings and how they ended.
+//! What is kept of the others are their results, their warnings and how they ended; a store may keep them as they end.
 
-use super::table::Table;
+use super::kept::{Members, Store, is_life};
+use super::parts;
 use crate::each::staged;
 use outcome::host::{self, in_pool};
-use outcome::joined::Joined;
-use outcome::{Options, Outcome, Quantity, Spread, Stop, Value, Work};
+use outcome::{Options, Outcome, Spread, Stop, Value, Work};
 use problem::{Place, Problem, Result};
 use scenario::{Scenario, Variations};
-use simulate::bearing::LIFE_BY_POINT;
 use simulate::drop::Drop;
 use simulate::drop::build::{self, DropModel};
 use simulate::drop::each::{self, One, numbers};
 use simulate::ending::interrupted;
-use std::collections::BTreeMap;
+use std::convert::Infallible;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
 
-/// Members of a part, each thread: its lanes stay full, and their records stand in memory together.
-const PART: usize = 256;
 /// Members that are built before a run; more of them are built as they come.
 const BEFORE: usize = 512;
 /// Keeps the numbers of machines apart from those of starts.
@@ -57,7 +53,8 @@ pub(crate) fn others(scenario: &Scenario, drop: &Drop) -> Result<Vec<Arc<Member>
     }
 }
 
-fn count(drop: &Drop) -> usize {
+/// How many members a drop has.
+pub(crate) fn count(drop: &Drop) -> usize {
     drop.repeat.count.max(1) as usize
 }
 
@@ -99,12 +96,13 @@ pub(crate) fn run(
     built: &Arc<DropModel>,
     known: &[Arc<Member>],
     options: &Options,
+    store: &dyn Store,
 ) -> Outcome {
     let made = in_pool(options.threads, || {
         let given = One::of(scenario, built.clone());
         match count(&built.drop) {
             1 => each::run(&[given.single()], options).pop(),
-            _ => repeated(&given, known, options).outcome(scenario, &built.drop),
+            _ => repeated(&given, known, options, store).outcome(scenario, &built.drop),
         }
     });
     let Some(outcome) = made else {
@@ -113,18 +111,30 @@ pub(crate) fn run(
     outcome
 }
 
-/// Runs the members, part by part.
-fn repeated(given: &One, known: &[Arc<Member>], options: &Options) -> Repetition {
+/// Runs the members that are not in the store, some at a time; the first in any case, since it is kept whole.
+fn repeated(
+    given: &One,
+    known: &[Arc<Member>],
+    options: &Options,
+    store: &dyn Store,
+) -> Repetition {
     let (scenario, drop) = (given.scenario, &given.built.drop);
     let count = count(drop);
     let variations = scenario.variations();
     let mut all = Repetition::default();
-    let part = PART * host::threads();
-    for begin in (0..count).step_by(part) {
-        let part = begin..(begin + part).min(count);
-        let drawn: Vec<Drawn> = part.clone().map(|k| draw(scenario, drop, k)).collect();
+    for part in 0..parts::count(count) {
+        all.whole.append(store.there(part));
+    }
+    let mut is_there = vec![false; count];
+    for member in &all.whole.table.members {
+        is_there[*member] = true;
+    }
+    let lacking: Vec<usize> = (0..count).filter(|k| *k == 0 || !is_there[*k]).collect();
+    let mut done = count - lacking.len();
+    let mut turn = |some: &[usize]| {
+        let drawn: Vec<Drawn> = some.iter().map(|k| draw(scenario, drop, *k)).collect();
         let read = host::each(&drawn, |place, drawn| {
-            let k = begin + place;
+            let k = some[place];
             match known.get(k.wrapping_sub(1)) {
                 Some(other) => Ok(Some(other.clone())),
                 None if drawn.is_empty() => Ok(None),
@@ -137,28 +147,43 @@ fn repeated(given: &One, known: &[Arc<Member>], options: &Options) -> Repetition
                 Ok(None) => given.clone(),
                 Err(problem) => return Err(Outcome::not_built(problem).into()),
             };
-            Ok(one.repeated(begin + place))
-        };
-        let done = |fraction: f64| {
-            let done = begin as f64 + fraction * read.len() as f64;
-            (options.progress)(done / count as f64);
+            Ok(one.repeated(some[place]))
         };
         let plan = Options {
-            progress: &done,
+            progress: &|fraction| {
+                let done = done as f64 + fraction * some.len() as f64;
+                (options.progress)(done / count as f64);
+            },
             ..*options
         };
-        let made = staged(read.len(), stage, |_, made| made, &plan);
-        for (((k, made), drawn), read) in part.zip(made).zip(drawn).zip(&read) {
-            match read {
-                Ok(_) => all.add(k, made, drawn),
-                Err(_) => _ = all.broken.get_or_insert((k, made.stop)),
+        let made = staged(some.len(), stage, |_, made| made, &plan);
+        let mut part = parts::part_of(some[0]);
+        let mut fresh = Members::default();
+        for ((k, mut made), read) in some.iter().copied().zip(made).zip(&read) {
+            if part != parts::part_of(k) {
+                all.keep(store, part, std::mem::take(&mut fresh));
+                part = parts::part_of(k);
+            }
+            if made.stop.complete() {
+                if !is_there[k] {
+                    fresh.add(k, &mut made);
+                }
+            } else {
+                all.broken.get_or_insert((k, made.stop.clone()));
+                if read.is_ok() {
+                    all.others.add(k, &mut made);
+                }
+            }
+            if k == 0 {
+                all.first = Some(made);
             }
         }
+        all.keep(store, part, fresh);
         host::discard(read);
-        if options.interrupt.load(Ordering::Relaxed) {
-            break;
-        }
-    }
+        done += some.len();
+        Ok::<(), Infallible>(())
+    };
+    let Ok(()) = parts::in_turns(&lacking, options, &mut turn);
     all
 }
 
@@ -168,65 +193,47 @@ struct Repetition {
     /// The first member.
     first: Option<Outcome>,
     /// Those that ended as planned: another would pull every mean.
-    table: Table,
-    drawn: Vec<Drawn>,
-    /// Sums of lives by point over these, and how many have one.
-    lives: BTreeMap<String, (Vec<f64>, f64)>,
-    warnings: Joined,
-    /// The first that did not, and how.
+    whole: Members,
+    /// Warnings and work of the others, of which one was built.
+    others: Members,
+    /// The first of them, and how it ended.
     broken: Option<(usize, Stop)>,
-    work: Work,
 }
 
 impl Repetition {
-    fn add(&mut self, k: usize, mut made: Outcome, drawn: Drawn) {
-        if !made.stop.complete() {
-            self.broken.get_or_insert((k, made.stop.clone()));
+    /// Takes fresh members of a part into the store, and with the others.
+    fn keep(&mut self, store: &dyn Store, part: usize, fresh: Members) {
+        if !fresh.table.is_empty() {
+            store.keep(part, &fresh);
+            self.whole.append(fresh);
         }
-        self.work.members += 1;
-        self.work.steps += made.work.steps;
-        self.work.rejected += made.work.rejected;
-        self.work.rate_calls += made.work.rate_calls;
-        if made.stop.complete() {
-            for result in made.quantities.iter().filter(|own| is_life(own)) {
-                if let Value::List(values) = &result.value {
-                    let (sum, count) = self.lives.entry(result.name.clone()).or_default();
-                    sum.resize(values.len(), 0.0);
-                    sum.iter_mut()
-                        .zip(values)
-                        .for_each(|(sum, value)| *sum += value);
-                    *count += 1.0;
-                }
-            }
-            self.drawn.push(drawn);
-            self.table.push(k, Vec::new(), &made);
-        }
-        self.warnings.add(k, std::mem::take(&mut made.warnings));
-        self.first.get_or_insert(made);
     }
 
     fn outcome(mut self, scenario: &Scenario, drop: &Drop) -> Option<Outcome> {
         let count = count(drop);
         let mut first = self.first?;
+        let names = first.quantities.iter().map(|own| own.name.as_str());
+        let table = std::mem::take(&mut self.whole.table).sorted();
+        let table = table.ordered(&names.collect::<Vec<_>>());
         let least = chaotic_from(scenario, drop);
         for quantity in &mut first.quantities {
             if is_life(quantity) {
-                let (sum, count) = self.lives.remove(&quantity.name).unwrap_or_default();
-                quantity.value = Value::List(sum.iter().map(|sum| sum / count).collect());
+                quantity.value = Value::List(self.whole.mean_life(&quantity.name));
             }
-            let values = self.table.values(&quantity.name);
+            let values = table.values(&quantity.name);
             quantity.spread = Spread::of(values.into_iter().flatten().collect());
             let deviation = quantity.spread.map_or(0.0, |of| of.relative_deviation());
             quantity.chaotic = least.is_some_and(|least| deviation > least)
                 // what a ledger misses is an error of the integration, and has no size of its own
                 && !quantity.name.ends_with("residual");
         }
-        first.warnings = self.warnings.list(scenario.vary.is_empty());
-        let next = self.work.members;
+        let whole = table.len();
+        // in the order of the members, what is not there comes first
+        let next = (table.members.iter().enumerate()).find(|(row, member)| row != *member);
+        let next = next.map_or(whole, |(row, _)| row);
         let rest = || (next, interrupted(0.0));
         let broken = self.broken.or_else(|| (next < count).then(rest));
         if let Some((k, stop)) = broken.filter(|_| first.stop.complete()) {
-            let whole = self.table.len();
             first.stop = Stop {
                 text: format!(
                     "Member {k} of the repetition: {}. {whole} of {count} members are whole; only these enter the spread.",
@@ -235,24 +242,23 @@ impl Repetition {
                 ..stop
             };
         }
-        if scenario.vary.is_empty() {
-            self.drawn.clear();
-        }
+        let varied = !scenario.vary.is_empty();
+        let draws = table.members.iter().filter(|_| varied);
+        let drawn = draws.map(|k| draw(scenario, drop, *k)).collect();
+        self.whole.append(self.others);
+        let (warnings, work) = self.whole.without_table();
         Some(Outcome {
+            warnings: warnings.list(!varied),
             work: Work {
                 members: count,
                 method: first.work.method,
-                ..self.work
+                ..work
             },
-            members: self.table,
-            drawn: self.drawn,
+            members: table,
+            drawn,
             ..first
         })
     }
-}
-
-fn is_life(quantity: &Quantity) -> bool {
-    quantity.name.ends_with(LIFE_BY_POINT)
 }
 
 /// Relative deviation of members that starts make chaotic: below it no reader sees it.

@@ -1,0 +1,156 @@
+//! What is kept of the members of a repetition, and where.
+
+use super::table::Table;
+use outcome::joined::{Joined, Told};
+use outcome::{Outcome, Quantity, Value, Work};
+use serde::{Deserialize, Serialize};
+use simulate::bearing::LIFE_BY_POINT;
+use std::collections::BTreeMap;
+
+/// Where members are kept as they end, by parts; what is there is not computed again.
+pub trait Store: Sync {
+    /// The members of a part that are there.
+    fn there(&self, part: usize) -> Members;
+    /// Keeps more members of a part, which ended as planned.
+    fn keep(&self, part: usize, fresh: &Members);
+}
+
+/// Keeps nothing.
+pub struct Nowhere;
+
+impl Store for Nowhere {
+    fn there(&self, _: usize) -> Members {
+        Members::default()
+    }
+    fn keep(&self, _: usize, _: &Members) {}
+}
+
+/// Members with their results, and what of them counts in sums alone.
+#[derive(Clone, Default)]
+pub struct Members {
+    /// Results of those that ended as planned: another would pull every mean.
+    pub table: Table,
+    /// Lives by point of these, by their names.
+    lives: BTreeMap<String, Lives>,
+    warnings: Joined,
+    work: Work,
+}
+
+/// What stands of members beside their table.
+#[derive(Serialize, Deserialize)]
+pub struct Beside {
+    lives: BTreeMap<String, Lives>,
+    warnings: Vec<Told>,
+    members: usize,
+    work: [u64; 3],
+}
+
+/// Sums over members, whose rounding does not depend on their order.
+#[derive(Clone, Default, Serialize, Deserialize)]
+struct Lives {
+    sums: Vec<f64>,
+    /// What the sums have lost by rounding.
+    lost: Vec<f64>,
+    count: f64,
+}
+
+impl Lives {
+    /// Neumaier's sum.
+    fn add(&mut self, values: &[f64]) {
+        let count = self.sums.len().max(values.len());
+        self.sums.resize(count, 0.0);
+        self.lost.resize(count, 0.0);
+        for ((sum, lost), value) in self.sums.iter_mut().zip(&mut self.lost).zip(values) {
+            let next = *sum + value;
+            *lost += match sum.abs() >= value.abs() {
+                true => (*sum - next) + value,
+                false => (value - next) + *sum,
+            };
+            *sum = next;
+        }
+    }
+}
+
+impl Members {
+    /// Adds a member.
+    pub(super) fn add(&mut self, k: usize, made: &mut Outcome) {
+        self.work.members += 1;
+        self.work.steps += made.work.steps;
+        self.work.rejected += made.work.rejected;
+        self.work.rate_calls += made.work.rate_calls;
+        if made.stop.complete() {
+            for result in made.quantities.iter().filter(|own| is_life(own)) {
+                if let Value::List(values) = &result.value {
+                    let lives = self.lives.entry(result.name.clone()).or_default();
+                    lives.add(values);
+                    lives.count += 1.0;
+                }
+            }
+            self.table.push(k, Vec::new(), made);
+        }
+        self.warnings.add(k, std::mem::take(&mut made.warnings));
+    }
+
+    /// Adds those of another part.
+    pub fn append(&mut self, other: Members) {
+        self.table.append(other.table);
+        for (name, other) in other.lives {
+            let lives = self.lives.entry(name).or_default();
+            lives.add(&other.sums);
+            lives.add(&other.lost);
+            lives.count += other.count;
+        }
+        self.warnings.append(other.warnings);
+        self.work.members += other.work.members;
+        self.work.steps += other.work.steps;
+        self.work.rejected += other.work.rejected;
+        self.work.rate_calls += other.work.rate_calls;
+    }
+
+    /// What stands beside the table.
+    pub fn beside(&self) -> Beside {
+        let work = &self.work;
+        Beside {
+            lives: self.lives.clone(),
+            warnings: self.warnings.told(),
+            members: work.members,
+            work: [work.steps, work.rejected, work.rate_calls],
+        }
+    }
+
+    /// Members as they were kept; none where a warning has a word that none has.
+    pub fn kept(table: Table, beside: Beside) -> Option<Members> {
+        let [steps, rejected, rate_calls] = beside.work;
+        Some(Members {
+            table,
+            lives: beside.lives,
+            warnings: Joined::of_told(beside.members, beside.warnings)?,
+            work: Work {
+                members: beside.members,
+                steps,
+                rejected,
+                rate_calls,
+                ..Work::default()
+            },
+        })
+    }
+
+    /// The mean of a life by point.
+    pub(super) fn mean_life(&self, name: &str) -> Vec<f64> {
+        let Some(lives) = self.lives.get(name) else {
+            return Vec::new();
+        };
+        let sums = lives.sums.iter().zip(&lives.lost);
+        sums.map(|(sum, lost)| (sum + lost) / lives.count).collect()
+    }
+
+    /// Warnings and work.
+    pub(super) fn without_table(self) -> (Joined, Work) {
+        (self.warnings, self.work)
+    }
+}
+
+/// Whether a result is a life by point, of which a repetition has the mean.
+pub(super) fn is_life(quantity: &Quantity) -> bool {
+    quantity.name.ends_with(LIFE_BY_POINT)
+}
