@@ -1,19 +1,17 @@
 //! Warnings of the members of a repetition, joined.
 
-use crate::{Amount, Scope, Severity, Warning};
-use problem::warning::{Declared, Evaluation};
+use crate::{Scope, Warning};
+use problem::warning::Evaluation;
 use serde::{Deserialize, Serialize};
-use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
 
 /// Warnings of members, added in any order: each once, as the one has it where it is most severe.
-#[derive(Clone, Default)]
+#[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Joined {
     members: usize,
     list: Vec<OfMembers>,
 }
 
-#[derive(Clone)]
+#[derive(Clone, Serialize, Deserialize)]
 struct OfMembers {
     warning: Warning,
     /// Whose it is, and in how many members it was found.
@@ -37,40 +35,6 @@ impl OfMembers {
             (self.warning, self.member) = (other.warning, other.member);
         }
     }
-}
-
-/// A warning of members in words that a file keeps.
-#[derive(Serialize, Deserialize)]
-pub struct Told {
-    code: String,
-    severity: String,
-    /// Place in [`EVALUATIONS`].
-    evaluation: usize,
-    part: String,
-    names_part: bool,
-    time: Option<f64>,
-    values: Vec<(String, Said, String)>,
-    grade: f64,
-    text: String,
-    member: usize,
-    count: usize,
-    place: (usize, usize),
-    alike: bool,
-}
-
-const EVALUATIONS: [Evaluation; 4] = [
-    Evaluation::File,
-    Evaluation::Each,
-    Evaluation::Unperturbed,
-    Evaluation::CoastDown,
-];
-
-/// An [`Amount`] in a file.
-#[derive(Serialize, Deserialize)]
-#[serde(untagged)]
-enum Said {
-    Number(f64),
-    Text(String),
 }
 
 impl Joined {
@@ -137,73 +101,6 @@ impl Joined {
         };
         self.list.into_iter().map(told).collect()
     }
-
-    /// All of them in words that a file keeps.
-    pub fn told(&self) -> Vec<Told> {
-        let tell = |own: &OfMembers| Told {
-            code: own.warning.code.to_string(),
-            severity: own.warning.severity.word().to_string(),
-            evaluation: (EVALUATIONS.iter())
-                .position(|known| *known == own.warning.evaluation)
-                .unwrap_or_default(),
-            part: own.warning.part.clone(),
-            names_part: own.warning.names_part(),
-            time: own.warning.time,
-            values: (own.warning.values.iter())
-                .map(|(name, amount, unit)| {
-                    let said = match amount {
-                        Amount::Number(value) => Said::Number(*value),
-                        Amount::Text(text) => Said::Text(text.clone()),
-                    };
-                    (name.to_string(), said, unit.to_string())
-                })
-                .collect(),
-            grade: own.warning.grade,
-            text: own.warning.text.clone(),
-            member: own.member,
-            count: own.count,
-            place: own.place,
-            alike: own.alike,
-        };
-        self.list.iter().map(tell).collect()
-    }
-
-    /// Those of so many members as a file kept them; none where a word is none that was kept.
-    pub fn of_told(members: usize, list: Vec<Told>) -> Option<Joined> {
-        let read = |told: Told| {
-            let kind = Declared {
-                name: "",
-                code: lasting(told.code),
-                severity: Severity::of_word(&told.severity)?,
-                evaluation: *EVALUATIONS.get(told.evaluation)?,
-                by: "",
-            };
-            let value = |(name, said, unit)| {
-                let amount = match said {
-                    Said::Number(value) => Amount::Number(value),
-                    Said::Text(text) => Amount::Text(text),
-                };
-                (lasting(name), amount, lasting(unit))
-            };
-            let time = told.time.map(|time| ("time", Amount::Number(time), "s"));
-            let part = (told.names_part).then(|| ("part", Amount::Text(told.part.clone()), ""));
-            let values = told.values.into_iter().map(value).chain(time).chain(part);
-            let mut warning = Warning::new(&kind, told.text, values.collect());
-            if !told.names_part {
-                warning = warning.of_part(&told.part);
-            }
-            warning.grade = told.grade;
-            Some(OfMembers {
-                warning,
-                member: told.member,
-                count: told.count,
-                place: told.place,
-                alike: told.alike,
-            })
-        };
-        let list = list.into_iter().map(read).collect::<Option<_>>()?;
-        Some(Joined { members, list })
-    }
 }
 
 fn in_each(warning: &Warning) -> bool {
@@ -215,22 +112,11 @@ fn find<'a>(list: &'a mut [OfMembers], new: &OfMembers) -> Option<&'a mut OfMemb
     let same = |own: &&mut OfMembers| {
         let (own, new) = (&own.warning, &new.warning);
         in_each(new)
-            && [own.code, &own.part] == [new.code, &new.part]
+            && own.code == new.code
+            && own.part == new.part
             && own.evaluation == new.evaluation
     };
     list.iter_mut().find(same)
-}
-
-/// The same text for as long as the process lives: names of values and their units, of which there are few.
-fn lasting(text: String) -> &'static str {
-    static KNOWN: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
-    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
-    if let Some(own) = known.get(text.as_str()) {
-        return own;
-    }
-    let own = &*text.leak();
-    known.insert(own);
-    own
 }
 
 #[cfg(test)]
@@ -282,11 +168,8 @@ mod tests {
         );
         assert_eq!(joined((0..9).rev()).list(true), whole);
         let (mut first, rest) = (joined(5..9), joined(0..5));
-        let told = serde_json::to_string(&rest.told()).unwrap();
-        let read = Joined::of_told(5, serde_json::from_str(&told).unwrap()).unwrap();
-        first.append(read);
+        let file = serde_json::to_string(&rest).unwrap();
+        first.append(serde_json::from_str(&file).unwrap());
         assert_eq!(first.list(true), whole);
-        let odd = told.replace("destroys", "destructive");
-        assert!(Joined::of_told(5, serde_json::from_str(&odd).unwrap()).is_none());
     }
 }

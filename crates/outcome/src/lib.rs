@@ -18,7 +18,7 @@ pub use options::Options;
 use problem::Problem;
 pub use problem::warning::{Amount, Scope, Severity, Warning};
 use scenario::Limit;
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use table::Table;
 
 const NOT_FINITE: &str = "what was computed is not a finite number";
@@ -358,7 +358,7 @@ impl Stop {
 }
 
 /// Work of a run, all members together.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Work {
     /// Machines simulated.
     pub members: usize,
@@ -372,6 +372,7 @@ pub struct Work {
     #[serde(rename = "wall_s")]
     pub seconds: f64,
     /// Method of the time integration; none where nothing moves.
+    #[serde(skip_deserializing)]
     pub method: Option<&'static str>,
 }
 

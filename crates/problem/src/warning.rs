@@ -20,10 +20,13 @@
 //! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `coast_down`. `by "RESULT"` behind that names the result
 //! that it comes from.
 
+use serde::{Deserialize, Deserializer, Serialize};
+use std::collections::BTreeSet;
 use std::fmt;
+use std::sync::{Mutex, PoisonError};
 
 /// How severe a warning is, the most severe first.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
 pub enum Severity {
     /// What the results show destroys bearing, shaft or what stands around it.
     Destroys,
@@ -76,7 +79,7 @@ pub struct Declared {
 }
 
 /// In which members of a repeated run a kind of warning is evaluated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Evaluation {
     /// It follows from the file: in the unperturbed one for all.
     File,
@@ -89,7 +92,8 @@ pub enum Evaluation {
 }
 
 /// A value of a warning.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub enum Amount {
     /// A number, SI.
     Number(f64),
@@ -98,7 +102,7 @@ pub enum Amount {
 }
 
 /// In which members of a repeated run a warning was found.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Scope {
     /// The run was not repeated, or it concerns all members.
     Alike,
@@ -115,11 +119,17 @@ pub enum Scope {
     },
 }
 
+/// A code, or a name or unit of a value.
+pub type Word = &'static str;
+/// A value of a warning: its name, itself, its unit.
+pub type Named = (Word, Amount, Word);
+
 /// Something the user should know. Prints as text with part and members.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Warning {
     /// Stable code, e.g. `AB1001`.
-    pub code: &'static str,
+    #[serde(deserialize_with = "read_word")]
+    pub code: Word,
     /// How severe it is.
     pub severity: Severity,
     /// Name of the bearing, node or test concerned; empty where there is none.
@@ -127,7 +137,8 @@ pub struct Warning {
     /// Instant, s, where it has one.
     pub time: Option<f64>,
     /// Values with names and units.
-    pub values: Vec<(&'static str, Amount, &'static str)>,
+    #[serde(deserialize_with = "read_values")]
+    pub values: Vec<Named>,
     /// In which members of a repeated run it is evaluated.
     pub evaluation: Evaluation,
     /// How grave it is beside the same of another member.
@@ -142,11 +153,7 @@ pub struct Warning {
 
 impl Warning {
     /// A warning of a declared kind; what stands in `time` and `part` of its values becomes its own.
-    pub fn new(
-        kind: &Declared,
-        text: String,
-        mut values: Vec<(&'static str, Amount, &'static str)>,
-    ) -> Warning {
+    pub fn new(kind: &Declared, text: String, mut values: Vec<Named>) -> Warning {
         let (mut part, mut time) = (String::new(), None);
         values.retain(|(name, amount, unit)| match (*name, amount, *unit) {
             (_, Amount::Number(value), _) if !value.is_finite() => false,
@@ -179,11 +186,6 @@ impl Warning {
         self.code == kind.code
     }
 
-    /// Whether its sentences name its part.
-    pub fn names_part(&self) -> bool {
-        self.names_part
-    }
-
     /// The same of a part; one without a name adds nothing.
     pub fn of_part(mut self, name: &str) -> Warning {
         if !name.is_empty() {
@@ -192,6 +194,28 @@ impl Warning {
         }
         self
     }
+}
+
+/// The same text for as long as the process lives: codes, and names and units of values, of which there are few.
+fn lasting(text: String) -> Word {
+    static KNOWN: Mutex<BTreeSet<&str>> = Mutex::new(BTreeSet::new());
+    let mut known = KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    if let Some(own) = known.get(text.as_str()) {
+        return own;
+    }
+    let own = &*text.leak();
+    known.insert(own);
+    own
+}
+
+fn read_word<'de, D: Deserializer<'de>>(file: D) -> Result<Word, D::Error> {
+    String::deserialize(file).map(lasting)
+}
+
+fn read_values<'de, D: Deserializer<'de>>(file: D) -> Result<Vec<Named>, D::Error> {
+    let values = Vec::<(String, Amount, String)>::deserialize(file)?.into_iter();
+    let named = values.map(|(name, amount, unit)| (lasting(name), amount, lasting(unit)));
+    Ok(named.collect())
 }
 
 impl fmt::Display for Warning {

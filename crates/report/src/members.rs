@@ -7,7 +7,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use problem::open_file;
 use problem::{Code, Problem, Result};
-use run::study::kept::{Beside, Members, Store};
+use run::study::kept::{Members, Store};
 use run::study::parts;
 use run::study::table::{Column, Table};
 use serde::{Deserialize, Serialize};
@@ -146,9 +146,9 @@ pub(super) struct Kept {
 
 /// What a repetition keeps beside the table of a part.
 #[derive(Serialize, Deserialize)]
-struct Stored {
+struct Stored<M> {
     version: String,
-    members: Beside,
+    members: M,
 }
 
 impl Kept {
@@ -181,11 +181,11 @@ impl Kept {
     fn part(&self, part: usize) -> Option<Members> {
         let place = path(&self.directory, part);
         let table = read(&place, &[], &parts::members(part, self.count)).ok()?;
-        let stored: Stored = serde_json::from_str(&said(&place, REPETITION).ok()??).ok()?;
-        match stored.version == env!("CARGO_PKG_VERSION") {
-            true => Members::kept(table, stored.members),
-            false => None,
-        }
+        let stored: Stored<Members> =
+            serde_json::from_str(&said(&place, REPETITION).ok()??).ok()?;
+        let mut members = stored.members;
+        members.table = table;
+        (stored.version == env!("CARGO_PKG_VERSION")).then_some(members)
     }
 
     fn written(&self, part: usize, fresh: &Members) -> Result<()> {
@@ -195,7 +195,7 @@ impl Kept {
         let unwritten = |error| failed(&place, &error);
         let stored = Stored {
             version: env!("CARGO_PKG_VERSION").to_string(),
-            members: whole.beside(),
+            members: &whole,
         };
         let stored = serde_json::to_string(&stored).map_err(|error| unwritten(error.into()))?;
         let beside = vec![KeyValue::new(REPETITION.to_string(), stored)];

@@ -1,7 +1,7 @@
 //! What is kept of the members of a repetition, and where.
 
 use super::table::Table;
-use outcome::joined::{Joined, Told};
+use outcome::joined::Joined;
 use outcome::{Outcome, Quantity, Value, Work};
 use serde::{Deserialize, Serialize};
 use simulate::bearing::LIFE_BY_POINT;
@@ -25,24 +25,16 @@ impl Store for Nowhere {
     fn keep(&self, _: usize, _: &Members) {}
 }
 
-/// Members with their results, and what of them counts in sums alone.
-#[derive(Clone, Default)]
+/// Members with their results, and what of them counts in sums alone: that is what a file has beside the table.
+#[derive(Clone, Default, Serialize, Deserialize)]
 pub struct Members {
     /// Results of those that ended as planned: another would pull every mean.
+    #[serde(skip)]
     pub table: Table,
     /// Lives by point of these, by their names.
     lives: BTreeMap<String, Lives>,
     warnings: Joined,
     work: Work,
-}
-
-/// What stands of members beside their table.
-#[derive(Serialize, Deserialize)]
-pub struct Beside {
-    lives: BTreeMap<String, Lives>,
-    warnings: Vec<Told>,
-    members: usize,
-    work: [u64; 3],
 }
 
 /// Sums over members, whose rounding does not depend on their order.
@@ -105,34 +97,6 @@ impl Members {
         self.work.steps += other.work.steps;
         self.work.rejected += other.work.rejected;
         self.work.rate_calls += other.work.rate_calls;
-    }
-
-    /// What stands beside the table.
-    pub fn beside(&self) -> Beside {
-        let work = &self.work;
-        Beside {
-            lives: self.lives.clone(),
-            warnings: self.warnings.told(),
-            members: work.members,
-            work: [work.steps, work.rejected, work.rate_calls],
-        }
-    }
-
-    /// Members as they were kept; none where a warning has a word that none has.
-    pub fn kept(table: Table, beside: Beside) -> Option<Members> {
-        let [steps, rejected, rate_calls] = beside.work;
-        Some(Members {
-            table,
-            lives: beside.lives,
-            warnings: Joined::of_told(beside.members, beside.warnings)?,
-            work: Work {
-                members: beside.members,
-                steps,
-                rejected,
-                rate_calls,
-                ..Work::default()
-            },
-        })
     }
 
     /// The mean of a life by point.

@@ -13,11 +13,12 @@ use simulate::drop::Drop;
 use simulate::drop::build::{self, DropModel};
 use simulate::drop::each::{self, One, numbers};
 use simulate::ending::interrupted;
+use std::collections::{BTreeMap, BTreeSet};
 use std::convert::Infallible;
 use std::sync::Arc;
 
 /// Members that are built before a run; more of them are built as they come.
-const BEFORE: usize = 512;
+const BEFORE: usize = 128;
 /// Keeps the numbers of machines apart from those of starts.
 const MACHINES: u64 = 0x5851_f42d_4c95_7f2d;
 
@@ -26,7 +27,7 @@ type Drawn = Vec<(String, String)>;
 /// The file and the machine of a member whose machine differs from the one given.
 pub(crate) type Member = (Scenario, Arc<DropModel>);
 
-/// Members 1, 2, … whose machines differ, the first 512 of them.
+/// Members 1, 2, … whose machines differ, the first 128 of them.
 ///
 /// # Errors
 /// What is wrong with the first of these that cannot be built.
@@ -41,16 +42,42 @@ pub(crate) fn others(scenario: &Scenario, drop: &Drop) -> Result<Vec<Arc<Member>
         member(&variations, &draw(scenario, drop, *k), *k)
     });
     let first = first.into_iter().collect::<Result<_>>()?;
-    // what they draw is refused in time
-    let refused = host::each(later, |_, k| {
-        let drawn = draw(scenario, drop, *k);
-        let problem = variations.with(&drawn).err()?;
-        Some(member_problem(*k, &drawn, problem))
+    // what they draw is refused in time: a value beyond what a key allows is the least or the largest
+    let refused = host::each(&extremes(scenario, drop, later), |_, (k, drawn)| {
+        let problem = variations.with(drawn).err()?;
+        Some(member_problem(*k, drawn, problem))
     });
     match refused.into_iter().flatten().next() {
         Some(problem) => Err(problem),
         None => Ok(first),
     }
+}
+
+/// Of these members those that draw the least or the largest of a value, and the first with each word.
+fn extremes(scenario: &Scenario, drop: &Drop, members: &[usize]) -> Vec<(usize, Drawn)> {
+    let number = |text: &str| text.split(' ').next()?.parse::<f64>().ok();
+    let mut ends: BTreeMap<String, [(f64, usize); 2]> = BTreeMap::new();
+    let mut chosen: BTreeSet<usize> = BTreeSet::new();
+    let mut words: BTreeSet<(String, String)> = BTreeSet::new();
+    for k in members.iter().copied() {
+        for (path, text) in draw(scenario, drop, k) {
+            match number(&text) {
+                Some(value) => {
+                    let [least, most] = ends.entry(path).or_insert([(value, k); 2]);
+                    if value < least.0 {
+                        *least = (value, k);
+                    } else if value > most.0 {
+                        *most = (value, k);
+                    }
+                }
+                None if words.insert((path, text)) => _ = chosen.insert(k),
+                None => {}
+            }
+        }
+    }
+    chosen.extend(ends.into_values().flatten().map(|(_, k)| k));
+    let chosen = chosen.into_iter();
+    chosen.map(|k| (k, draw(scenario, drop, k))).collect()
 }
 
 /// How many members a drop has.
