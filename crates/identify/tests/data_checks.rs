@@ -34,7 +34,7 @@ fn said(tests: &[&Measurement], steady: &SteadyMoment, settings: &CheckSettings)
         // each can be said, with the name of its test before the finding alone
         let said = doubt.to_string();
         assert!(said.len() > 30);
-        let finding = doubt.finding.to_string();
+        let finding = doubt.finding.note().to_string();
         if let Some(test) = &doubt.test {
             assert_eq!(said, format!("{test}: {finding}"));
             assert!(!finding.contains(test));
@@ -205,7 +205,7 @@ fn a_cage_that_skids_in_the_hold_is_not_miscounted() {
     ));
     let found = said(&[&skids], &curve(1.0), &stated());
     let cages: Vec<&Finding> = (found.iter())
-        .filter(|finding| finding.to_string().contains("cage settles"))
+        .filter(|finding| finding.note().to_string().contains("cage settles"))
         .collect();
     let [Finding::CageNeverRolls { ratio, .. }] = cages[..] else {
         panic!("{found:?}")

@@ -14,12 +14,13 @@
 //! ```
 //!
 //! A row has the fields of its variant with their kinds, a code, a severity and the sentence with its arguments, as `format!` takes
-//! them. Kinds of fields: an SI unit (a number), `text` (a name or word that is a value), `words` (a piece of the sentence alone). A
-//! number `time` in s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code
-//! names the kind, for code that joins or leaves out warnings of it. A word
-//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `coast_down`. `by "RESULT"` behind that names the result
-//! that it comes from.
+//! them; behind the word `note`, as [`note!`](crate::note!) does, which keeps its values apart. Kinds of fields: an SI unit (a number),
+//! `text` (a name or word that is a value), `words` or `note` (a piece of the sentence alone, which a [`Note`] is). A number `time` in
+//! s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code names the kind, for
+//! code that joins or leaves out warnings of it. A word behind the severity says in which members of a repeated run it is evaluated:
+//! `each`, `unperturbed` or `coast_down`. `by "RESULT"` behind that names the result that it comes from.
 
+use crate::note::Note;
 use std::fmt;
 
 /// How severe a warning is, the most severe first.
@@ -136,6 +137,8 @@ pub struct Warning {
     pub scope: Scope,
     /// One or two sentences.
     pub text: String,
+    /// The same with its values.
+    sentence: Note,
     /// Whether the sentences name the part.
     names_part: bool,
 }
@@ -144,7 +147,7 @@ impl Warning {
     /// A warning of a declared kind; what stands in `time` and `part` of its values becomes its own.
     pub fn new(
         kind: &Declared,
-        text: String,
+        sentence: Note,
         mut values: Vec<(&'static str, Amount, &'static str)>,
     ) -> Warning {
         let (mut part, mut time) = (String::new(), None);
@@ -170,13 +173,26 @@ impl Warning {
             evaluation: kind.evaluation,
             grade: 0.0,
             scope: Scope::Alike,
-            text,
+            text: sentence.to_string(),
+            sentence,
         }
     }
 
     /// Whether it is of a kind.
     pub fn is(&self, kind: &Declared) -> bool {
         self.code == kind.code
+    }
+
+    /// Whether it says the same as another, but for their parts and numbers.
+    pub fn is_like(&self, other: &Warning) -> bool {
+        self.code == other.code && self.sentence.is_like(&other.sentence)
+    }
+
+    /// The same with each number from the smallest to the largest of both.
+    pub fn widened(mut self, other: &Warning) -> Warning {
+        self.sentence = self.sentence.widened(&other.sentence);
+        self.text = self.sentence.to_string();
+        self
     }
 
     /// The same of a part; one without a name adds nothing.
@@ -213,6 +229,7 @@ impl fmt::Display for Warning {
 macro_rules! warnings {
     (@type text) => { String };
     (@type words) => { String };
+    (@type note) => { $crate::note::Note };
     (@type $unit:literal) => { f64 };
     (@evaluation) => { $crate::warning::Evaluation::File };
     (@evaluation each) => { $crate::warning::Evaluation::Each };
@@ -232,7 +249,10 @@ macro_rules! warnings {
         #[doc = concat!("The kind ", stringify!($($kind)*), ".")]
         $vis const $name: &$crate::warning::Declared = &$crate::warnings!(@declared $($kind)*);
     };
+    (@sentence note $($sentence:tt)*) => { $crate::note!($($sentence)*) };
+    (@sentence $($sentence:tt)*) => { $crate::note::Note::from(format!($($sentence)*)) };
     (@value $list:ident $field:ident words) => {};
+    (@value $list:ident $field:ident note) => {};
     (@value $list:ident $field:ident text) => {
         $list.push((stringify!($field), $crate::warning::Amount::Text($field), ""))
     };
@@ -260,10 +280,10 @@ macro_rules! warnings {
                 match warning {
                     $($table::$variant $({ $($field),* })? => {
                         let kind = $crate::warnings!(@declared $variant $code $severity [$($evaluation)?] [$($by)?]);
-                        let text = format!($($sentence)*);
+                        let sentence = $crate::warnings!(@sentence $($sentence)*);
                         let mut values = Vec::new();
                         $($($crate::warnings!(@value values $field $kind);)*)?
-                        $crate::warning::Warning::new(&kind, text, values)
+                        $crate::warning::Warning::new(&kind, sentence, values)
                     })*
                 }
             }
