@@ -18,18 +18,16 @@ pub enum Shown {
 /// ```
 /// use problem::note;
 ///
-/// let swing = |frequency: f64| note!("{}: the reading swings at {:.1} Hz", "Torque", frequency);
-/// let (slow, quick) = (swing(27.04), swing(144.62));
-/// assert!(slow.is_like(&quick) && slow != quick);
-/// assert_eq!(slow.to_string(), "Torque: the reading swings at 27.0 Hz");
-/// assert_eq!(slow.widened(&quick).to_string(), "Torque: the reading swings at 27.0 to 144.6 Hz");
+/// let swing = |frequency: f64| note!("{}: it swings at {:.1} Hz", "Torque", frequency);
+/// let both = swing(27.04).joined(&swing(144.62)).unwrap();
+/// assert_eq!(both.to_string(), "Torque: it swings at 27.0 to 144.6 Hz");
 /// ```
 ///
 /// A value stands behind the pattern; one within it would be no value of the sentence:
 ///
 /// ```compile_fail,E0308
 /// let frequency = 27.0;
-/// problem::note!("the reading swings at {frequency:.1} Hz");
+/// problem::note!("it swings at {frequency:.1} Hz");
 /// ```
 #[derive(Clone)]
 pub struct Note {
@@ -39,7 +37,7 @@ pub struct Note {
 }
 
 /// Writes a pattern with its values one after another.
-type Render = fn(&mut Iter<'_, Shown>) -> String;
+type Render = fn(&mut Iter<'_, Shown>, &mut fmt::Formatter<'_>) -> fmt::Result;
 
 impl Note {
     /// A sentence that `render` writes from a pattern and its values.
@@ -51,43 +49,35 @@ impl Note {
         }
     }
 
-    /// Whether both say the same but for their numbers.
-    pub fn is_like(&self, other: &Note) -> bool {
-        let values = || self.values.iter().zip(&other.values);
-        self.pattern == other.pattern && values().all(|(own, other)| own.is_like(other))
-    }
-
-    /// The same with each number from the smallest to the largest of both.
-    pub fn widened(&self, other: &Note) -> Note {
+    /// Both as one, each number from the smallest to the largest; none where they differ in more than their numbers.
+    pub fn joined(&self, other: &Note) -> Option<Note> {
         let values = self.values.iter().zip(&other.values);
-        let values = values.map(|(own, other)| own.widened(other)).collect();
-        Note::new(self.pattern, values, self.render)
+        let values: Option<_> = values.map(|(own, other)| own.joined(other)).collect();
+        (self.pattern == other.pattern).then_some(Note::new(self.pattern, values?, self.render))
     }
 }
 
 impl Shown {
-    fn is_like(&self, other: &Shown) -> bool {
-        match (self, other) {
-            (Shown::Numbers(..), Shown::Numbers(..)) => true,
-            (Shown::Note(own), Shown::Note(other)) => own.is_like(other),
-            _ => self == other,
-        }
-    }
-
-    fn widened(&self, other: &Shown) -> Shown {
+    fn joined(&self, other: &Shown) -> Option<Shown> {
         match (self, other) {
             (Shown::Numbers(least, most), Shown::Numbers(low, high)) => {
-                Shown::Numbers(least.min(*low), most.max(*high))
+                Some(Shown::Numbers(least.min(*low), most.max(*high)))
             }
-            (Shown::Note(own), Shown::Note(other)) => Shown::Note(own.widened(other)),
-            _ => self.clone(),
+            (Shown::Note(own), Shown::Note(other)) => own.joined(other).map(Shown::Note),
+            _ => (self == other).then(|| self.clone()),
         }
     }
+}
 
-    /// Writes it, its numbers in words of `number`.
-    fn write(&self, f: &mut fmt::Formatter<'_>, number: impl Fn(f64) -> String) -> fmt::Result {
+impl fmt::Display for Shown {
+    /// Where least and largest number look the same with their digits, it is written once.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let number = |value: &f64| match f.precision() {
+            Some(digits) => format!("{value:.digits$}"),
+            None => value.to_string(),
+        };
         match self {
-            Shown::Numbers(least, most) => match (number(*least), number(*most)) {
+            Shown::Numbers(least, most) => match (number(least), number(most)) {
                 (least, most) if least == most => f.write_str(&least),
                 (least, most) => write!(f, "{least} to {most}"),
             },
@@ -97,27 +87,9 @@ impl Shown {
     }
 }
 
-impl fmt::Display for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match f.precision() {
-            Some(digits) => self.write(f, |value| format!("{value:.digits$}")),
-            None => self.write(f, |value| value.to_string()),
-        }
-    }
-}
-
-impl fmt::LowerExp for Shown {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match f.precision() {
-            Some(digits) => self.write(f, |value| format!("{value:.digits$e}")),
-            None => self.write(f, |value| format!("{value:e}")),
-        }
-    }
-}
-
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(&(self.render)(&mut self.values.iter()))
+        (self.render)(&mut self.values.iter(), f)
     }
 }
 
@@ -178,8 +150,8 @@ pub fn next<'a>(values: &mut Iter<'a, Shown>) -> &'a Shown {
 macro_rules! note {
     (@next $values:ident $value:expr) => { $crate::note::next($values) };
     ($pattern:literal $(, $value:expr)* $(,)?) => {
-        $crate::note::Note::new($pattern, vec![$($crate::note::Shown::from($value)),*], |_values| {
-            format!($pattern $(, $crate::note!(@next _values $value))*)
+        $crate::note::Note::new($pattern, vec![$($crate::note::Shown::from($value)),*], |_values, f| {
+            write!(f, $pattern $(, $crate::note!(@next _values $value))*)
         })
     };
 }
@@ -189,55 +161,45 @@ mod tests {
     use super::*;
 
     fn settled(ratio: f64, at: &str) -> Note {
-        crate::note!(
-            "it settles at {:.3} of {}, a factor of {:.0e}",
-            ratio,
-            at,
-            1e3 * ratio
-        )
+        note!("it settles at {:.3} of {}", ratio, at)
     }
 
     #[test]
     fn the_same_of_two_is_one_sentence_with_ranges() {
         let (one, other) = (settled(0.714, "M"), settled(0.952, "M"));
-        assert!(one.is_like(&other) && one != other && one == settled(0.714, "M"));
-        let both = "it settles at 0.714 to 0.952 of M, a factor of 7e2 to 1e3";
-        assert_eq!(one.widened(&other).to_string(), both);
-        assert_eq!(other.widened(&one).widened(&one), one.widened(&other));
+        let both = one.joined(&other).unwrap();
+        assert_eq!(both.to_string(), "it settles at 0.714 to 0.952 of M");
+        assert_eq!(other.joined(&one).unwrap().joined(&one), Some(both));
         // what differs only beyond the digits that are shown is one number
-        let near = one.widened(&settled(0.714_2, "M"));
-        assert_eq!(near.to_string(), one.to_string());
-        let count = |count: usize| crate::note!("{} of {} marks", count, 60_u32);
-        let counts = count(1446).widened(&count(27));
+        let near = one.joined(&settled(0.714_2, "M")).unwrap();
+        assert!(near != one && near.to_string() == one.to_string());
+        let count = |count: usize| note!("{} of {} marks", count, 60_u32);
+        let counts = count(1446).joined(&count(27)).unwrap();
         assert_eq!(counts.to_string(), "27 to 1446 of 60 marks");
     }
 
     #[test]
     fn another_text_or_pattern_is_another_sentence() {
-        assert!(!settled(0.7, "M").is_like(&settled(0.7, "F")));
+        assert_eq!(settled(0.7, "M").joined(&settled(0.7, "F")), None);
         let text = |text: &str| Note::from(text.to_string());
-        assert!(
-            text("3 gaps").is_like(&text("3 gaps")) && !text("3 gaps").is_like(&text("4 gaps"))
-        );
-        let (one, other) = (crate::note!("{} gaps", 3.0), crate::note!("{} holes", 3.0));
-        assert!(!one.is_like(&other) && one != other && one != text("3 gaps"));
-        // a number where the other has a text
-        assert!(!crate::note!("{} gaps", "3").is_like(&one));
+        assert_eq!(text("3 gaps").joined(&text("3 gaps")), Some(text("3 gaps")));
+        assert_eq!(text("3 gaps").joined(&text("4 gaps")), None);
+        let one = note!("{} gaps", 3.0);
+        // another pattern, the same words, a text in place of a number
+        for other in [
+            note!("{} holes", 3.0),
+            text("3 gaps"),
+            note!("{} gaps", "3"),
+        ] {
+            assert!(one.joined(&other).is_none() && one != other, "{other}");
+        }
     }
 
     #[test]
     fn a_sentence_within_a_sentence_keeps_its_values() {
-        let within = |ratio: f64| crate::note!("tap: {}", settled(ratio, "M"));
-        assert!(within(0.5).is_like(&within(0.7)));
-        assert!(!within(0.5).is_like(&crate::note!("tap: {}", settled(0.5, "F"))));
-        let both = within(0.7).widened(&within(0.5)).to_string();
-        assert!(
-            both.starts_with("tap: it settles at 0.500 to 0.700 of M"),
-            "{both}"
-        );
-        assert_eq!(
-            format!("{:?}", within(0.5)),
-            format!("{:?}", within(0.5).to_string())
-        );
+        let tap = |ratio: f64, at: &str| note!("tap: {}", settled(ratio, at));
+        let both = tap(0.7, "M").joined(&tap(0.5, "M")).unwrap();
+        assert_eq!(both.to_string(), "tap: it settles at 0.500 to 0.700 of M");
+        assert_eq!(tap(0.5, "M").joined(&tap(0.5, "F")), None);
     }
 }

@@ -183,16 +183,15 @@ impl Warning {
         self.code == kind.code
     }
 
-    /// Whether it says the same as another, but for their parts and numbers.
-    pub fn is_like(&self, other: &Warning) -> bool {
-        self.code == other.code && self.sentence.is_like(&other.sentence)
-    }
-
-    /// The same with each number from the smallest to the largest of both.
-    pub fn widened(mut self, other: &Warning) -> Warning {
-        self.sentence = self.sentence.widened(&other.sentence);
-        self.text = self.sentence.to_string();
-        self
+    /// Both as one, as [`Note::joined`] does; none where they are of two kinds or differ in more than part and numbers.
+    pub fn joined(&self, other: &Warning) -> Option<Warning> {
+        let sentence = self.sentence.joined(&other.sentence)?;
+        let text = sentence.to_string();
+        (self.code == other.code).then(|| Warning {
+            sentence,
+            text,
+            ..self.clone()
+        })
     }
 
     /// The same of a part; one without a name adds nothing.

@@ -17,28 +17,29 @@ problem::warnings! {
 
 /// The lines, in the order in which each is said first.
 pub(crate) fn grouped(warnings: &[Warning]) -> Vec<Warning> {
-    let mut groups: Vec<Vec<&Warning>> = Vec::new();
+    let mut groups: Vec<(Vec<&Warning>, Warning)> = Vec::new();
     for one in warnings {
-        if groups.iter().any(|group| group.contains(&one)) {
+        if groups.iter().any(|(members, _)| members.contains(&one)) {
             continue;
         }
         // twice of one test is two things
-        let joins = |other: &&Warning| {
-            let of_tests = !one.part.is_empty() && !other.part.is_empty();
-            of_tests && one.part != other.part && one.is_like(other)
-        };
-        match groups.iter_mut().find(|group| group.iter().all(joins)) {
-            Some(group) => group.push(one),
-            None => groups.push(vec![one]),
+        let apart = |other: &&Warning| other.part != one.part && !other.part.is_empty();
+        let mut of_tests = (groups.iter_mut())
+            .filter(|(members, _)| members.iter().all(apart) && !one.part.is_empty());
+        let joined = of_tests.find_map(|(members, line)| Some((line.joined(one)?, members, line)));
+        match joined {
+            Some((both, members, line)) => {
+                members.push(one);
+                *line = both;
+            }
+            None => groups.push((vec![one], one.clone())),
         }
     }
-    (groups.iter())
-        .map(|group| {
-            let names: Vec<&str> = group.iter().map(|own| own.part.as_str()).collect();
-            let whole = (group.iter()).fold(group[0].clone(), |whole, own| whole.widened(own));
-            whole.of_part(&names.join(", "))
-        })
-        .collect()
+    let named = |(members, line): (Vec<&Warning>, Warning)| {
+        let names: Vec<&str> = members.iter().map(|own| own.part.as_str()).collect();
+        line.of_part(&names.join(", "))
+    };
+    groups.into_iter().map(named).collect()
 }
 
 /// What the estimators of the signals say.

@@ -3,7 +3,6 @@
 use super::{Doubt, Finding};
 use crate::measurement::Measurement;
 use problem::{note, note::Note};
-use std::fmt;
 
 /// Settled torque over M, or M over it, from which M is not of the same bearing, load and temperature: what lubricants, slip
 /// and sensors do stays below it.
@@ -56,11 +55,11 @@ impl Finding {
                     false => ("least", expected.0),
                 };
                 note!(
-                    "at steady speed the torque is {:.4} N mm, where Palmgren's law has {:.4} N mm at {} for a ball bearing of this size: the unit of the reading is wrong, by a factor of {:.0e} perhaps (signals.torque.scale, or the unit in the head of the file)",
+                    "at steady speed the torque is {:.4} N mm, where Palmgren's law has {:.4} N mm at {} for a ball bearing of this size: the unit of the reading is wrong, by a factor of {} perhaps (signals.torque.scale, or the unit in the head of the file)",
                     1e3 * moment,
                     1e3 * bound,
                     word,
-                    10_f64.powf(3.0 * ((moment / middle).log10() / 3.0).round())
+                    format!("1e{}", 3 * ((moment / middle).log10() / 3.0).round() as i32)
                 )
             }
             Finding::NeverReaches { reached, wanted } => note!(
@@ -139,15 +138,6 @@ impl Finding {
                 lasts,
                 needed
             ),
-        }
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        match &self.test {
-            Some(test) => write!(out, "{test}: {}", self.finding.note()),
-            None => write!(out, "{}", self.finding.note()),
         }
     }
 }
