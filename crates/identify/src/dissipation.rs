@@ -27,6 +27,7 @@ use crate::measurement::{Measurement, SetDeviation};
 use crate::series::{RunningVariance, trapezoid};
 use physics::rolling::RollingSet;
 use physics::spin_up_energy::{SpinUpEnergy, spin_up_loss};
+use problem::{note, note::Note};
 use statistics::interpolation::{between, held};
 use statistics::normal::below;
 use statistics::uncertain::Uncertain;
@@ -56,7 +57,7 @@ pub struct Dissipation {
     /// Probability that the printed form is too large.
     pub printed_too_large: f64,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Dissipation {
@@ -83,10 +84,9 @@ impl Dissipation {
             self.outer_moment_work,
             set.ball_ratio,
         );
-        self.notes.push(
+        self.notes.push(note!(
             "nothing excludes slip at the end of the spin-up: without a cage signal the range of its energy begins at balls that were not spun up at all"
-                .to_string(),
-        );
+        ));
         self
     }
 
@@ -219,8 +219,9 @@ pub fn dissipation(
     let exact = match with_cage(test, &part, set, set_deviation, window, work) {
         Ok(found) => Some(found),
         Err(why) => {
-            notes.push(format!(
-                "{why}: the path term counts as unknown between its bounds"
+            notes.push(note!(
+                "{}: the path term counts as unknown between its bounds",
+                why
             ));
             None
         }
@@ -307,19 +308,17 @@ fn with_cage(
     set_deviation: &SetDeviation,
     window: (f64, f64),
     work: Uncertain,
-) -> Result<Uncertain, String> {
-    let cage = test
-        .cage
-        .as_ref()
-        .ok_or_else(|| format!("{}: no cage signal", test.name))?;
+) -> Result<Uncertain, Note> {
+    let cage = (test.cage.as_ref()).ok_or_else(|| note!("no cage signal"))?;
     let (s, radius) = (set.ball_ratio, set.inner_track_radius);
     // KE = ½ orbit ω_c² + ½ spin ω_b², L = orbit ω_c - spin ω_b: balls spin against the race
     let orbit = (set.balls_mass + set.cage_mass) * (radius * (1.0 + s)).powi(2);
     let spin = 0.4 * set.balls_mass * (s * radius).powi(2);
     let missing = || {
-        format!(
-            "{}: the cage signal does not cover the spin-up from {:.4} s to {:.4} s",
-            test.name, window.0, window.1
+        note!(
+            "the cage signal does not cover the spin-up from {:.4} s to {:.4} s",
+            window.0,
+            window.1
         )
     };
     let age = cage.age();

@@ -22,6 +22,7 @@
 use crate::measurement::SetDeviation;
 use measure::speed::Speed;
 use physics::rolling::RollingSet;
+use problem::{note, note::Note};
 use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
@@ -127,7 +128,7 @@ pub struct RotorFriction {
     /// Points at which rotor and race slide.
     pub points: Vec<FrictionPoint>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// Parts of `points`, each of one turn of the rotor.
     windows: Vec<Window>,
     correlation_time: f64,
@@ -188,13 +189,15 @@ pub fn rotor_friction(run: &RubbingSpinUp, race: &Race) -> Result<RotorFriction,
     }
     let mut notes = Vec::new();
     if beyond > 0 {
-        notes.push(format!(
-            "at {beyond} times the steady moment is not known: they are left out"
+        notes.push(note!(
+            "at {} times the steady moment is not known: they are left out",
+            beyond
         ));
     }
     if without > 0 {
-        notes.push(format!(
-            "at {without} times the friction of accelerated balls is not known: it is taken as 0, μ is then too small by share F/(R_0 W)"
+        notes.push(note!(
+            "at {} times the friction of accelerated balls is not known: it is taken as 0, μ is then too small by share F/(R_0 W)",
+            without
         ));
     }
     if points.is_empty() {

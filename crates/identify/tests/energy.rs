@@ -158,7 +158,7 @@ fn balls_that_still_slip_at_the_end_lie_in_the_range_of_any_slip() {
                 range
                     .notes
                     .iter()
-                    .any(|note| note.contains("slip at the end"))
+                    .any(|note| note.to_string().contains("slip at the end"))
             );
         }
     }
@@ -276,7 +276,7 @@ fn a_window_that_is_no_spin_up_is_refused() {
     assert!(why((0.4, 0.3)).contains("no length"));
     assert!(why((f64::NAN, 0.3)).contains("no length"));
     let found = dissipation(&test, &set(), &EXACT, None).unwrap();
-    assert!(found.exact.is_none() && found.notes[0].contains("no cage signal"));
+    assert!(found.exact.is_none() && found.notes[0].to_string().contains("no cage signal"));
     let mut still = test.clone();
     still.speed.iter_mut().for_each(|s| *s = 0.0);
     assert!(
@@ -292,7 +292,7 @@ fn a_window_that_is_no_spin_up_is_refused() {
     ));
     let found = dissipation(&late, &set(), &EXACT, None).unwrap();
     assert!(
-        found.exact.is_none() && found.notes[0].contains("does not cover"),
+        found.exact.is_none() && found.notes[0].to_string().contains("does not cover"),
         "{:?}",
         found.notes
     );

@@ -158,7 +158,10 @@ fn up_is_set_against_down() {
         "{found:?}"
     );
     assert!(
-        apart.notes.iter().any(|note| note.contains("speeding up")),
+        apart
+            .notes
+            .iter()
+            .any(|note| note.to_string().contains("speeding up")),
         "{:?}",
         apart.notes
     );
@@ -249,7 +252,7 @@ fn slow_tests_that_disagree_are_named() {
         assert!((unequal.ratio - 1.5).abs() < 0.1, "{unequal:?}");
         assert!(unequal.forbids_comparison());
         assert!(
-            unequal.finding().contains("another"),
+            unequal.finding().to_string().contains("another"),
             "{}",
             unequal.finding()
         );

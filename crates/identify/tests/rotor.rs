@@ -172,7 +172,11 @@ fn without_noise_it_is_the_formula() {
     // an F that is there and not known makes μ too small by share F/(R_0 W), and is reported
     let unknown = |_: f64, _: f64| None;
     let race = exact_race(&law, &unknown);
-    assert!(rotor_friction(&drop.run, &race).unwrap().notes[0].contains("taken as 0"));
+    assert!(
+        rotor_friction(&drop.run, &race).unwrap().notes[0]
+            .to_string()
+            .contains("taken as 0")
+    );
     let newton = |_: f64, _: f64| Some(Uncertain::exact(1.0));
     let race = exact_race(&law, &newton);
     let with = rotor_friction(&drop.run, &race).unwrap();
@@ -193,7 +197,7 @@ fn a_moment_that_is_not_known_leaves_a_gap_and_says_so() {
     let law = |speed: f64, _: f64| (speed <= 300.0).then(|| Uncertain::exact(steady(speed)));
     let none = |_: f64, _: f64| Some(Uncertain::exact(0.0));
     let found = rotor_friction(&drop.run, &exact_race(&law, &none)).unwrap();
-    assert!(found.notes[0].contains("left out"));
+    assert!(found.notes[0].to_string().contains("left out"));
     let least = found
         .points
         .iter()
@@ -283,7 +287,7 @@ fn what_the_unbalance_swings_averages_out_of_whole_turns() {
         found
             .notes
             .iter()
-            .any(|note| note.contains("within a turn"))
+            .any(|note| note.to_string().contains("within a turn"))
     );
     let means = found.over_slip(20);
     assert!(means.len() >= 8, "{means:?}");
@@ -350,7 +354,7 @@ fn less_than_a_turn_holds_the_whole_swing_in_its_band() {
         found
             .notes
             .iter()
-            .any(|note| note.contains("less than a turn"))
+            .any(|note| note.to_string().contains("less than a turn"))
     );
     let (mean, means) = (found.mean(), found.over_slip(20));
     assert!(means.len() == 1, "{means:?}");

@@ -274,5 +274,11 @@ fn what_has_no_curve_is_refused() {
     );
     let (speeds, torques) = coasted(1, 0.0);
     let outside = direct(&speeds, &torques, &[400.0, 100.0]).expect("a curve");
-    assert!(outside.torque[0].is_nan() && outside.notes.iter().any(|n| n.contains("outside")));
+    assert!(
+        outside.torque[0].is_nan()
+            && outside
+                .notes
+                .iter()
+                .any(|n| n.to_string().contains("outside"))
+    );
 }

@@ -171,7 +171,7 @@ fn a_slip_outside_the_range_is_not_reported() {
         found
             .notes
             .iter()
-            .any(|note| note.contains("no value there")),
+            .any(|note| note.to_string().contains("no value there")),
         "{:?}",
         found.notes
     );
@@ -198,7 +198,7 @@ fn a_rival_line_is_refused_or_reported() {
     assert!(
         weak.notes
             .iter()
-            .any(|note| note.contains("there is another")),
+            .any(|note| note.to_string().contains("there is another")),
         "{:?}",
         weak.notes
     );
@@ -217,7 +217,7 @@ fn a_rival_line_is_refused_or_reported() {
         shaft
             .notes
             .iter()
-            .any(|note| note.contains("stays at order 4 of the shaft")),
+            .any(|note| note.to_string().contains("stays at order 4 of the shaft")),
         "{:?}",
         shaft.notes
     );

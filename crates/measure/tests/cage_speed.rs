@@ -252,7 +252,10 @@ fn two_deviations_cover_a_cage_that_lags() {
         )
         .expect("found");
         assert!(
-            !found.notes.iter().any(|n| n.contains("missing")),
+            !found
+                .notes
+                .iter()
+                .any(|n| n.to_string().contains("missing")),
             "{:?}",
             found.notes
         );
@@ -283,7 +286,7 @@ fn missing_and_double_passings_are_counted_and_repaired() {
         found
             .notes
             .iter()
-            .any(|n| n.starts_with("3 passings are missing")),
+            .any(|n| n.to_string().starts_with("3 passings are missing")),
         "{:?}",
         found.notes
     );
@@ -291,7 +294,7 @@ fn missing_and_double_passings_are_counted_and_repaired() {
         found
             .notes
             .iter()
-            .any(|n| n.starts_with("1 passings came double")),
+            .any(|n| n.to_string().starts_with("1 passings came double")),
         "{:?}",
         found.notes
     );

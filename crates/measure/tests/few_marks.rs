@@ -172,7 +172,8 @@ fn a_change_that_began_before_the_record_is_not_dated() {
                 off < 2.0 * change.engagement.1,
                 "{seed} {missing}: {change:?}"
             );
-            let shown = |note: &String| note.contains("may have begun before");
+            let shown =
+                |note: &problem::note::Note| note.to_string().contains("may have begun before");
             assert!(
                 change.from_rest || speed.notes.iter().any(shown),
                 "{:?}",

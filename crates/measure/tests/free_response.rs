@@ -131,7 +131,8 @@ fn a_second_tap_ends_the_record() {
             found
                 .notes
                 .iter()
-                .any(|n| n.contains("second tap") || n.contains("more than one")),
+                .any(|n| n.to_string().contains("second tap")
+                    || n.to_string().contains("more than one")),
             "{:?}",
             found.notes
         );
@@ -152,12 +153,9 @@ fn a_line_of_the_mains_is_taken_out_and_reported() {
         let (f, z) = (found.sensor.frequency, found.sensor.damping_ratio);
         inside += usize::from((f.value - arm).abs() <= 2.0 * f.deviation);
         inside += usize::from((z.value - zeta).abs() <= 2.0 * z.deviation);
-        shown += usize::from(
-            found
-                .notes
-                .iter()
-                .any(|n| n.contains("line at 50.") || n.contains("line at 49.9")),
-        );
+        shown += usize::from(found.notes.iter().any(|n| {
+            n.to_string().contains("line at 50.") || n.to_string().contains("line at 49.9")
+        }));
         all += 1;
     }
     println!("inside {inside} of {}, reported {shown} of {all}", 2 * all);
@@ -170,7 +168,10 @@ fn a_sensor_that_is_not_linear_is_reported() {
     let reading = tapped(60.0, 0.02, 3, Event::Tap, 2e-5);
     let found = identify_free_response(&reading, INTERVAL, None).expect("a swing");
     assert!(
-        found.notes.iter().any(|n| n.contains("not linear")),
+        found
+            .notes
+            .iter()
+            .any(|n| n.to_string().contains("not linear")),
         "{:?}",
         found.notes
     );

@@ -125,7 +125,12 @@ fn low_speed_and_gaps_are_reported_and_survived() {
         speed_deviation: &[],
     };
     let found = orders(&values, 0.0, INTERVAL, &shaft, &[1.0, 0.1], 2.0).expect("orders");
-    assert!(found.notes.iter().any(|n| n.contains("order 0.1 is below")));
+    assert!(
+        found
+            .notes
+            .iter()
+            .any(|n| n.to_string().contains("order 0.1 is below"))
+    );
     assert!(found.rest[5500].is_nan() && found.rest[7000].is_finite());
     assert!(found.orders[0].cosine.iter().all(|v| v.is_finite()));
     let gap = (5500.0 * INTERVAL / (found.time[1] - found.time[0])) as usize;

@@ -224,7 +224,7 @@ fn first_pulses_that_drown_leave_the_engagement_open() {
         let shown = speed
             .notes
             .iter()
-            .any(|note| note.contains("passed unseen before it"));
+            .any(|note| note.to_string().contains("passed unseen before it"));
         assert!(shown, "{:?}", speed.notes);
         let engagement = knots(&truth, &speed)[0];
         assert!(engagement.abs() < 3.0, "{engagement}");
@@ -308,7 +308,12 @@ fn a_silence_within_the_change_is_refused_and_a_stuck_pickup_reported() {
         "{why}"
     );
     let (_, speed) = found(&silenced(&whole, 0.9, 99.0, true)).unwrap();
-    let shown = |text: &str| speed.notes.iter().any(|note| note.contains(text));
+    let shown = |text: &str| {
+        speed
+            .notes
+            .iter()
+            .any(|note| note.to_string().contains(text))
+    };
     assert!(
         shown("no mark came after 0.89") && shown("stuck"),
         "{:?}",

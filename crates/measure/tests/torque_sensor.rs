@@ -273,7 +273,7 @@ fn the_jump_at_the_engagement_must_be_modelled() {
         early(&without.torque),
         early(&with.torque)
     );
-    assert!(without.notes.iter().any(|n| n.contains("jump")));
+    assert!(without.notes.iter().any(|n| n.to_string().contains("jump")));
 }
 
 #[test]
@@ -301,7 +301,7 @@ fn missing_values_are_bridged_and_reported() {
         torque
             .notes
             .iter()
-            .any(|n| n.contains("10 torque readings are missing"))
+            .any(|n| n.to_string().contains("10 torque readings are missing"))
     );
     assert!(torque.deviation[205] > torque.deviation[190]);
 }
@@ -347,7 +347,10 @@ fn clipped_readings_give_no_torque() {
                     assert!(torque.torque[k].is_nan() == torque.deviation[k].is_nan());
                 }
             }
-            let some_unknown = torque.notes.iter().any(|n| n.contains("is unknown"));
+            let some_unknown = torque
+                .notes
+                .iter()
+                .any(|n| n.to_string().contains("is unknown"));
             assert_eq!(some_unknown, !clipped.is_empty());
             let start = (test.engagement.value / INTERVAL) as usize + 1;
             for k in start..torque.torque.len() {
@@ -386,7 +389,12 @@ fn a_rest_that_may_be_none_is_none() {
     .expect("inverts");
     assert_eq!(found.torque, none.torque);
     assert_eq!(found.zero, none.zero);
-    assert!(found.notes.iter().any(|n| n.contains("no rest before")));
+    assert!(
+        found
+            .notes
+            .iter()
+            .any(|n| n.to_string().contains("no rest before"))
+    );
 }
 
 #[test]

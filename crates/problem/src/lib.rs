@@ -6,6 +6,7 @@ mod code;
 pub mod explain;
 mod file;
 pub mod key;
+pub mod note;
 mod place;
 pub mod provenance;
 pub mod raw;

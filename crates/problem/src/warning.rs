@@ -14,12 +14,13 @@
 //! ```
 //!
 //! A row has the fields of its variant with their kinds, a code, a severity and the sentence with its arguments, as `format!` takes
-//! them. Kinds of fields: an SI unit (a number), `text` (a name or word that is a value), `words` (a piece of the sentence alone). A
-//! number `time` in s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code
-//! names the kind, for code that joins or leaves out warnings of it. A word
-//! behind the severity says in which members of a repeated run it is evaluated: `each`, `unperturbed` or `coast_down`. `by "RESULT"` behind that names the result
-//! that it comes from.
+//! them; behind the word `note`, as [`note!`](crate::note!) does, which keeps its values apart. Kinds of fields: an SI unit (a number),
+//! `text` (a name or word that is a value), `words` or `note` (a piece of the sentence alone, which a [`Note`] is). A number `time` in
+//! s is the instant of the warning; a text `part` is the part that the sentence names. `[NAME]` behind the code names the kind, for
+//! code that joins or leaves out warnings of it. A word behind the severity says in which members of a repeated run it is evaluated:
+//! `each`, `unperturbed` or `coast_down`. `by "RESULT"` behind that names the result that it comes from.
 
+use crate::note::Note;
 use serde::{Deserialize, Deserializer, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
@@ -119,7 +120,7 @@ pub enum Scope {
     },
 }
 
-/// A code, or a name or unit of a value.
+/// A code, a name or unit of a value, or a pattern.
 pub type Word = &'static str;
 /// A value of a warning: its name, itself, its unit.
 pub type Named = (Word, Amount, Word);
@@ -147,13 +148,15 @@ pub struct Warning {
     pub scope: Scope,
     /// One or two sentences.
     pub text: String,
+    /// The same with its values.
+    sentence: Note,
     /// Whether the sentences name the part.
     names_part: bool,
 }
 
 impl Warning {
     /// A warning of a declared kind; what stands in `time` and `part` of its values becomes its own.
-    pub fn new(kind: &Declared, text: String, mut values: Vec<Named>) -> Warning {
+    pub fn new(kind: &Declared, sentence: Note, mut values: Vec<Named>) -> Warning {
         let (mut part, mut time) = (String::new(), None);
         values.retain(|(name, amount, unit)| match (*name, amount, *unit) {
             (_, Amount::Number(value), _) if !value.is_finite() => false,
@@ -177,13 +180,25 @@ impl Warning {
             evaluation: kind.evaluation,
             grade: 0.0,
             scope: Scope::Alike,
-            text,
+            text: sentence.to_string(),
+            sentence,
         }
     }
 
     /// Whether it is of a kind.
     pub fn is(&self, kind: &Declared) -> bool {
         self.code == kind.code
+    }
+
+    /// Both as one, as [`Note::joined`] does; none where they are of two kinds or differ in more than part and numbers.
+    pub fn joined(&self, other: &Warning) -> Option<Warning> {
+        let sentence = self.sentence.joined(&other.sentence)?;
+        let text = sentence.to_string();
+        (self.code == other.code).then(|| Warning {
+            sentence,
+            text,
+            ..self.clone()
+        })
     }
 
     /// The same of a part; one without a name adds nothing.
@@ -242,6 +257,7 @@ impl fmt::Display for Warning {
 macro_rules! warnings {
     (@type text) => { String };
     (@type words) => { String };
+    (@type note) => { $crate::note::Note };
     (@type $unit:literal) => { f64 };
     (@evaluation) => { $crate::warning::Evaluation::File };
     (@evaluation each) => { $crate::warning::Evaluation::Each };
@@ -261,7 +277,10 @@ macro_rules! warnings {
         #[doc = concat!("The kind ", stringify!($($kind)*), ".")]
         $vis const $name: &$crate::warning::Declared = &$crate::warnings!(@declared $($kind)*);
     };
+    (@sentence note $($sentence:tt)*) => { $crate::note!($($sentence)*) };
+    (@sentence $($sentence:tt)*) => { $crate::note::Note::from(format!($($sentence)*)) };
     (@value $list:ident $field:ident words) => {};
+    (@value $list:ident $field:ident note) => {};
     (@value $list:ident $field:ident text) => {
         $list.push((stringify!($field), $crate::warning::Amount::Text($field), ""))
     };
@@ -289,10 +308,10 @@ macro_rules! warnings {
                 match warning {
                     $($table::$variant $({ $($field),* })? => {
                         let kind = $crate::warnings!(@declared $variant $code $severity [$($evaluation)?] [$($by)?]);
-                        let text = format!($($sentence)*);
+                        let sentence = $crate::warnings!(@sentence $($sentence)*);
                         let mut values = Vec::new();
                         $($($crate::warnings!(@value values $field $kind);)*)?
-                        $crate::warning::Warning::new(&kind, text, values)
+                        $crate::warning::Warning::new(&kind, sentence, values)
                     })*
                 }
             }

@@ -1,12 +1,13 @@
 //! Slow tests of which no torque was measured: M from the inertia and the slope of the speed.
 
-use crate::identify::notes::{IdentifyWarning, noted, of_test};
+use crate::identify::notes::{IdentifyWarning, noted};
 use crate::identify::read::Test;
 use crate::signals;
 use identify::Measurement;
 use identify::coasting::{Coasting, Windage, coasting};
 use outcome::Warning;
 use physics::rolling::RollingSet;
+use problem::note;
 use std::sync::atomic::AtomicBool;
 
 /// A coast-down of which no torque was measured, and the windage that was taken out of it.
@@ -36,14 +37,15 @@ pub(super) fn coasted(
         windage: windage.as_ref(),
         set,
     })?;
-    let braked = "no torque was measured: M is the inertia times the deceleration";
-    let note = match windage {
-        Some(_) => format!("{braked}, less the windage"),
-        None => format!(
-            "{braked}; air and other bearings on the shaft are in it (signals.steady.windage_*)"
-        ),
+    let besides = match windage {
+        Some(_) => ", less the windage",
+        None => "; air and other bearings on the shaft are in it (signals.steady.windage_*)",
     };
-    lines.push(of_test(IdentifyWarning::Remark { note }, &test.name));
+    let note = note!(
+        "no torque was measured: M is the inertia times the deceleration{}",
+        besides
+    );
+    lines.push(Warning::from(IdentifyWarning::Remark { note }).of_part(&test.name));
     Ok((measurement, windage))
 }
 

@@ -2,7 +2,7 @@
 
 use crate::identify::coast_down::{coasted, largest};
 use crate::identify::consequence::{false_reading, other_cause, rolls, slip_is_open, slips};
-use crate::identify::notes::{IdentifyWarning, grouped, noted, of_test};
+use crate::identify::notes::{IdentifyWarning, grouped, noted};
 use crate::identify::read::{Request, Test};
 use crate::interruptible::{INTERRUPTED, interruptible};
 use crate::signals;
@@ -22,6 +22,7 @@ use identify::{Measurement, SetDeviation};
 use outcome::Warning;
 use outcome::options::Options;
 use physics::rolling::RollingSet;
+use problem::{note, note::Note};
 use scenario::RotorFriction;
 use statistics::uncertain::Uncertain;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -181,7 +182,7 @@ impl Estimate {
             let of = readings
                 .iter()
                 .find(|doubt| doubt.test.as_deref() == Some(test));
-            of.map(|doubt| doubt.finding.to_string())
+            of.map(|doubt| doubt.finding.note().to_string())
         };
         if let Some(why) = coast_downs.iter().find_map(|test| against(&test.name)) {
             moment = Err(why);
@@ -311,21 +312,21 @@ impl Estimate {
         };
         let mut lines: Vec<Warning> = Vec::new();
         for (name, why) in &unusable {
-            let why = why.to_string();
-            lines.push(of_test(IdentifyWarning::Unused { why }, name));
+            let why = why.clone().into();
+            lines.push(Warning::from(IdentifyWarning::Unused { why }).of_part(name));
         }
         lines.extend(doubts.iter().map(|doubt| {
-            let (finding, test) = (doubt.finding.to_string(), doubt.test.as_deref());
+            let (finding, test) = (doubt.finding.note(), doubt.test.as_deref());
             let warning = match test.is_some() && readings.contains(doubt) {
                 true => IdentifyWarning::Reading { finding },
                 false => IdentifyWarning::Doubt { finding },
             };
-            of_test(warning, test.unwrap_or_default())
+            Warning::from(warning).of_part(test.unwrap_or_default())
         }));
         let unequal = moment.iter().filter_map(|moment| moment.unequal.as_ref());
         let unequal = unequal.map(|unequal| unequal.finding());
         lines.extend(unequal.map(|finding| Warning::from(IdentifyWarning::Doubt { finding })));
-        let remark = |note: &String| Warning::from(IdentifyWarning::Remark { note: note.clone() });
+        let remark = |note: &Note| Warning::from(IdentifyWarning::Remark { note: note.clone() });
         let notes = (moment.iter().flat_map(|moment| &moment.notes))
             .chain(map.iter().flat_map(|map| &map.notes))
             .chain(rotor.iter().flat_map(|rotor| &rotor.notes));
@@ -333,7 +334,7 @@ impl Estimate {
         lines.extend(tests.iter().flat_map(|test| {
             let notes = (test.loss.iter().flat_map(|loss| &loss.notes))
                 .chain(test.dissipation.iter().flat_map(|found| &found.notes));
-            notes.map(|note| of_test(remark(note), &test.name))
+            notes.map(|note| remark(note).of_part(&test.name))
         }));
         lines.append(&mut of_signals);
         Estimate {
@@ -354,13 +355,13 @@ impl Estimate {
 }
 
 /// Why no explanation may be sought with this M.
-fn no_comparison(moment: &Moment, doubts: &[Doubt]) -> Option<String> {
+fn no_comparison(moment: &Moment, doubts: &[Doubt]) -> Option<Note> {
     let unequal = (moment.unequal.iter())
         .filter(|unequal| unequal.forbids_comparison())
         .map(|unequal| unequal.finding());
     let doubted = (doubts.iter())
         .filter(|doubt| doubt.finding.forbids_comparison())
-        .map(|doubt| doubt.finding.to_string());
+        .map(|doubt| doubt.finding.note());
     unequal.chain(doubted).next()
 }
 
@@ -577,13 +578,13 @@ fn rubbed(
         },
     )?;
     if wish.radial_air_clearance.is_none() {
-        found.notes.push(format!(
+        found.notes.push(note!(
             "the air clearance of the rotor is not given (identify.rotor_friction.radial_air_clearance): it counts as wide as the bore, and every slip is too large by {:.3} m/s a tenth of a millimetre of clearance",
             1e-4 * wish.rotor_speed
         ));
     }
     if !same_load(wish.radial_load, moment.curve.load) {
-        found.notes.push(format!(
+        found.notes.push(note!(
             "the rotor presses with {:.0} N, the steady moment was measured under {:.0} N: the part of it that depends on the load is that of the slow tests",
             wish.radial_load, moment.curve.load
         ));

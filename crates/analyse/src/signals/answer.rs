@@ -7,6 +7,7 @@ use crate::signals::torque::{Faulty, faulty};
 use outcome::Quantity;
 use outcome::list::results;
 use outcome::list::{List, origins};
+use problem::note::Note;
 use scenario::PickupKind;
 
 /// Names the results, of what was not asked for none; without a second argument those of any such measurement.
@@ -33,7 +34,7 @@ results! {
         "channels": text "" headline, FILE, "channels of the file with unit, number of values and rate" in channels "channels" => asked.channels();
         "file_notes": text "", FILE, "what to know of the file" => match asked.notes.as_slice() {
             [] => "none".to_string(),
-            notes => notes.join("; "),
+            notes => notes.iter().map(Note::to_string).collect::<Vec<_>>().join("; "),
         };
     }
 

@@ -5,6 +5,7 @@ use crate::signals::shaft;
 use measure::cage_speed::{CageSpeed, Line, QuickChange, from_pulses, from_vibration};
 use measure::order::orders;
 use measure::pulse::{Flank, edges};
+use problem::{note, note::Note};
 use scenario::{CageKind, CageSignal};
 use statistics::uncertain::Uncertain;
 
@@ -32,7 +33,7 @@ pub(crate) struct Estimate {
     pub told: CageSpeed,
     /// Speed of a rolling cage over that of the shaft.
     pub rolling_ratio: f64,
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Estimate {
@@ -52,7 +53,7 @@ impl Estimate {
         let cage = match (signal, wish.kind) {
             (Signal::Stamped(stamps), _) => {
                 if stamps.missing > 0 {
-                    notes.push(format!(
+                    notes.push(note!(
                         "{} instants are no numbers and were left out",
                         stamps.missing
                     ));
@@ -75,8 +76,9 @@ impl Estimate {
                         &found.rest
                     }
                     Err(why) => {
-                        notes.push(format!(
-                            "orders 1 to 3 of the shaft stay in the signal: {why}"
+                        notes.push(note!(
+                            "orders 1 to 3 of the shaft stay in the signal: {}",
+                            why
                         ));
                         &series.values
                     }
@@ -131,7 +133,7 @@ impl Estimate {
         wish: &CageSignal,
         marks: usize,
         shaft: &shaft::Estimate,
-    ) -> Option<String> {
+    ) -> Option<Note> {
         let slip = self.at_speed(shaft)?;
         let apart = APART * slip.deviation;
         if slip.value > LOWEST_SLIP - apart && slip.value < HIGHEST_SLIP + apart {
@@ -164,9 +166,12 @@ impl Estimate {
             true => "no cage leads its rolling",
             false => "so far behind its rolling few cages stay",
         };
-        Some(format!(
-            "the cage rests at a slip of {:.3} ± {:.3}, and {cannot}; {fits}",
-            slip.value, slip.deviation
+        Some(note!(
+            "the cage rests at a slip of {:.3} ± {:.3}, and {}; {}",
+            slip.value,
+            slip.deviation,
+            cannot,
+            fits
         ))
     }
 

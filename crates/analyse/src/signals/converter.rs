@@ -2,6 +2,7 @@
 
 use crate::signals::read::Series;
 use measure::converter::{Fault, faults};
+use problem::{note, note::Note};
 
 /// Share of the noise that rounding may have before it is told.
 const COARSE: f64 = 0.5;
@@ -12,8 +13,10 @@ pub(crate) struct Converted {
     pub clipped: usize,
     /// Noise of rounding over the noise of the channel.
     pub rounding_share: f64,
-    /// What to know of it.
-    pub told: Vec<String>,
+    /// What of it is at a limit.
+    pub at_limit: Option<Note>,
+    /// What its steps hide.
+    pub coarse: Option<Note>,
 }
 
 impl Converted {
@@ -21,32 +24,33 @@ impl Converted {
     pub fn of(series: &Series) -> Option<Converted> {
         let converter = series.converter?;
         let found = faults(&series.values, Some(&converter));
-        let mut at_limit = found.iter().filter(|one| one.fault == Fault::Clipped);
-        let first = at_limit.clone().next().map(|one| series.time(one.first));
-        let clipped = at_limit.clone().map(|one| one.count).sum();
-        let stretches = at_limit.by_ref().count();
+        let cut = || found.iter().filter(|one| one.fault == Fault::Clipped);
+        let clipped = cut().map(|one| one.count).sum();
+        let at_limit = cut().next().map(|first| {
+            note!(
+                "{} of {} values are at the limit of the converter (clipped), in {} stretches, the first at {:.6} s",
+                clipped,
+                series.values.len(),
+                cut().count(),
+                series.time(first.first)
+            )
+        });
         let noise = noise(&series.values);
         let rounding = converter.rounding_noise();
         // The noise that was measured holds that of rounding.
         let rounding_share = (rounding / noise.max(rounding)).min(1.0);
-        let mut told = Vec::new();
-        if let Some(first) = first {
-            told.push(format!(
-                "{clipped} of {} values are at the limit of the converter (clipped), in {stretches} stretches, the first at {first:.6} s",
-                series.values.len()
-            ));
-        }
-        if rounding_share > COARSE {
-            told.push(format!(
+        let coarse = (rounding_share > COARSE).then(|| {
+            note!(
                 "the steps of the converter make {:.0} % of the noise: a smaller range would show more",
                 100.0 * rounding_share
-            ));
-        }
+            )
+        });
         Some(Converted {
             name: series.name.clone(),
             clipped,
             rounding_share,
-            told,
+            at_limit,
+            coarse,
         })
     }
 }
@@ -107,7 +111,7 @@ mod tests {
         let mut fine = series(0.2);
         let found = Converted::of(&fine).unwrap();
         assert_eq!(found.clipped, 0);
-        assert!(found.told.is_empty(), "{:?}", found.told);
+        assert_eq!((&found.at_limit, &found.coarse), (&None, &None));
         assert!(
             (found.rounding_share - 0.0577).abs() < 0.006,
             "{}",
@@ -115,15 +119,17 @@ mod tests {
         );
         let coarse = Converted::of(&series(4.0)).unwrap();
         assert!(
-            coarse.rounding_share > 0.5 && coarse.told.len() == 1,
-            "{:?}",
-            coarse.told
+            coarse.rounding_share > 0.5 && coarse.coarse.is_some() && coarse.at_limit.is_none()
         );
         fine.values[700..750].fill(10.0);
         fine.values[900] = -10.0;
         let found = Converted::of(&fine).unwrap();
         assert_eq!(found.clipped, 51);
-        assert!(found.told[0].contains("51 of 4000") && found.told[0].contains("at 0.700000 s"));
+        let told = found.at_limit.unwrap().to_string();
+        assert!(
+            told.contains("51 of 4000") && told.contains("at 0.700000 s"),
+            "{told}"
+        );
         fine.converter = None;
         assert!(Converted::of(&fine).is_none());
     }

@@ -9,6 +9,7 @@ use measure::pulse::{Gap, Pulses};
 use measure::speed::Change;
 use measure::torque_sensor::{DesignError, Sensor, Torque};
 use outcome::Warning;
+use problem::note::Note;
 use std::sync::Arc;
 
 /// Why the torque is not known without the swing of its sensor.
@@ -36,14 +37,13 @@ pub(crate) struct Estimate {
 
 impl Estimate {
     /// Warns of each note of an estimator.
-    pub(crate) fn warn(
+    pub(crate) fn warn<'a>(
         &mut self,
         about: &str,
-        notes: &[String],
-        of: fn(String, String) -> SignalsWarning,
+        notes: impl IntoIterator<Item = &'a Note>,
+        of: fn(String, Note) -> SignalsWarning,
     ) {
-        let without_stop = |note: &String| note.trim_end_matches('.').to_string();
-        let all = notes.iter().map(without_stop);
+        let all = notes.into_iter().cloned();
         self.warnings
             .extend(all.map(|note| Warning::from(of(about.to_string(), note))));
     }
@@ -55,7 +55,7 @@ impl Estimate {
     }
 
     /// Warns of what an estimator says of its result.
-    pub(crate) fn note(&mut self, about: &str, notes: &[String]) {
+    pub(crate) fn note(&mut self, about: &str, notes: &[Note]) {
         self.warn(about, notes, |about, note| SignalsWarning::Estimate {
             about,
             note,

@@ -98,7 +98,7 @@ fn more(asked: &Arc<Request>, interrupt: &AtomicBool, found: &mut Estimate) {
         }
     };
     if let Some(steady) = found.answer("steady", interruptible(interrupt, steady)) {
-        found.warn("Steady curve", steady.doubt.as_slice(), |about, note| {
+        found.warn("Steady curve", &steady.doubt, |about, note| {
             SignalsWarning::SteadyCurve { about, note }
         });
         found.note("Steady curve", &steady.notes);
@@ -139,14 +139,10 @@ pub(crate) fn find(asked: &Arc<Request>, interrupt: &AtomicBool) -> Estimate {
         };
         // What is clipped of the torque is told with what is done about it.
         let own = asked.torque.as_ref().is_some_and(|t| t.name == series.name);
-        let told = converted
-            .told
-            .iter()
-            .filter(|text| !(own && text.contains("clipped")));
-        let told: Vec<String> = told.cloned().collect();
+        let told = converted.at_limit.iter().filter(|_| !own);
         found.warn(
             &format!("Channel {}", converted.name),
-            &told,
+            told.chain(&converted.coarse),
             |about, note| SignalsWarning::Channel { about, note },
         );
         found.converted.push(converted);
@@ -163,16 +159,16 @@ pub(crate) fn find(asked: &Arc<Request>, interrupt: &AtomicBool) -> Estimate {
         };
         if let Some(shaft) = found.answer("speed", interruptible(interrupt, shaft)) {
             let marks = "Marks per revolution";
-            found.warn(marks, shaft.doubt.as_slice(), |about, note| {
+            found.warn(marks, &shaft.doubt, |about, note| {
                 SignalsWarning::MarksPerRevolution { about, note }
             });
             let wish = asked.signals.speed.as_ref();
             let odd = wish.and_then(|wish| shaft.beside_set(wish));
-            found.warn("Largest speed", odd.as_slice(), |about, note| {
+            found.warn("Largest speed", &odd, |about, note| {
                 SignalsWarning::LargestSpeed { about, note }
             });
             if let shaft::MotionSource::Channel(channel) = &shaft.seen {
-                found.warn("Speed", channel.doubt.as_slice(), |about, note| {
+                found.warn("Speed", &channel.doubt, |about, note| {
                     SignalsWarning::SpeedChannel { about, note }
                 });
             }
@@ -213,8 +209,9 @@ pub(crate) fn find(asked: &Arc<Request>, interrupt: &AtomicBool) -> Estimate {
             let shaft = found.shaft.as_deref();
             let doubt = shaft.and_then(|shaft| cage.doubt(wish, marks, shaft));
             let place = capital(&asked.place("cage"));
-            found.warn(&place, doubt.as_slice(), |about, note| {
-                SignalsWarning::Cage { about, note }
+            found.warn(&place, &doubt, |about, note| SignalsWarning::Cage {
+                about,
+                note,
             });
             found.cage = Some(cage);
         }
@@ -229,8 +226,8 @@ pub(crate) fn find(asked: &Arc<Request>, interrupt: &AtomicBool) -> Estimate {
                 "steady" => "steady curve",
                 other => other,
             };
-            let why = why.trim_end_matches('.').to_string();
             let (what, place) = (what.to_string(), asked.place(part));
+            let why = why.clone().into();
             SignalsWarning::Refused { what, place, why }.into()
         })
         .collect();

@@ -9,6 +9,7 @@ use timing::Timing;
 
 use measure::converter::Converter;
 use problem::{Code, Problem, Result};
+use problem::{note, note::Note};
 use recording::unit::{no_signal, si_factor, speed_factor, unit_of};
 use recording::{Channel, Clock, Content, FileError, Instant, Recording};
 use scenario::{Signals, problem_at};
@@ -88,7 +89,7 @@ pub struct Source<'a> {
     /// A channel whose own clock has another interval than the scenario, and that, s.
     contradicted: Option<(String, f64)>,
     /// What was done with channels of uneven times.
-    evened: Vec<String>,
+    evened: Vec<Note>,
 }
 
 impl<'a> Source<'a> {
@@ -124,11 +125,11 @@ impl<'a> Source<'a> {
     }
 
     /// What was wrong with the file as far as it was read.
-    pub fn notes(&self) -> Vec<String> {
+    pub fn notes(&self) -> Vec<Note> {
         let notes = self.recording.notes().iter();
         let notes = notes.map(|note| match &note.channel {
-            Some(channel) => format!("{}, channel {channel}: {}", self.name, note.text),
-            None => format!("{}: {}", self.name, note.text),
+            Some(channel) => note!("{}, channel {}: {}", &self.name, channel, &note.text),
+            None => note!("{}: {}", &self.name, &note.text),
         });
         notes.chain(self.evened.iter().cloned()).collect()
     }

@@ -2,6 +2,7 @@
 
 use crate::signals::read::{self, Listed, Series, Source, Stamps};
 use crate::signals::spectrum;
+use problem::note::Note;
 use problem::{Code, Result};
 use scenario::{
     BuiltIn, CageKind, PickupFlank, PickupKind, Scenario, SensorSource, Signals, System, Windage,
@@ -14,7 +15,7 @@ use std::sync::Arc;
 pub struct Request {
     pub(crate) signals: Signals,
     pub(crate) listed: Vec<Listed>,
-    pub(crate) notes: Vec<String>,
+    pub(crate) notes: Vec<Note>,
     pub(crate) speed: Option<Signal>,
     pub(crate) torque: Option<Series>,
     pub(crate) tap: Option<Series>,

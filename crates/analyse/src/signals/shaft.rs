@@ -7,6 +7,7 @@ use measure::pulse::{
 };
 use measure::shaft::Shaft;
 use measure::speed::{Instrument, Motion, Speed, SpeedSettings, Transient, smooth, smooth_channel};
+use problem::{note, note::Note};
 use scenario::{PickupFlank, PickupKind, SpeedSignal};
 use statistics::interpolation;
 use std::f64::consts::{PI, TAU};
@@ -34,9 +35,9 @@ pub(crate) struct Estimate {
     pub peak: Motion,
     /// Where the largest speed is.
     pub fastest: Motion,
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// Why the marks per revolution may be wrong.
-    pub doubt: Option<String>,
+    pub doubt: Option<Note>,
     /// First and last time that was watched, s.
     pub watched: (f64, f64),
     interval: f64,
@@ -70,15 +71,15 @@ pub(crate) struct Channel {
     /// When a shaft that rests at the end was last seen to turn, s.
     stop: Option<f64>,
     /// Why a quick change may be the instrument's.
-    pub doubt: Option<String>,
+    pub doubt: Option<Note>,
 }
 
 /// A motion and what it was found from, before it is looked at.
 struct Smoothed {
     speed: Speed,
     seen: MotionSource,
-    notes: Vec<String>,
-    doubt: Option<String>,
+    notes: Vec<Note>,
+    doubt: Option<Note>,
     watched: (f64, f64),
 }
 
@@ -113,11 +114,12 @@ fn by_marks(
     // A warning, not a refusal: two wheels on one shaft, or a wheel with equal parts, show another number too.
     let mut notes = Vec::new();
     let doubt = match check_marks(&pulses) {
-        Marks::Contradicted(why) => Some(words(why)),
+        Marks::Contradicted(why) => Some(words(why).into()),
         // One mark or two have no pattern of their own.
         Marks::Unclear(why) if wish.marks_per_revolution > 2 && wish.set_speed.is_none() => {
-            notes.push(format!(
-                "the number of marks could not be checked: {why}; the speed that was set would check it (signals.speed.set_speed)"
+            notes.push(note!(
+                "the number of marks could not be checked: {}; the speed that was set would check it (signals.speed.set_speed)",
+                why
             ));
             None
         }
@@ -125,14 +127,20 @@ fn by_marks(
     };
     let pitch = match wish.calibration {
         true => calibrate(&pulses)
-            .map_err(|why| notes.push(format!("the errors of the marks are not taken out: {why}")))
+            .map_err(|why| {
+                notes.push(note!(
+                    "the errors of the marks are not taken out: {}",
+                    words(why)
+                ))
+            })
             .ok(),
         false => None,
     };
     let speed = smooth(&pulses, pitch.as_ref(), &settings(wish)).map_err(words)?;
     if let Some(odd) = pitch.as_ref().and_then(|pitch| pitch.odd) {
-        notes.push(format!(
-            "mark {odd} from the first one seen is out of line with the others; it is allowed for"
+        notes.push(note!(
+            "mark {} from the first one seen is out of line with the others; it is allowed for",
+            odd
         ));
     }
     Ok(Smoothed {
@@ -360,27 +368,31 @@ impl Estimate {
     }
 
     /// What is odd of the largest speed beside the one that was set, where it is.
-    pub fn beside_set(&self, wish: &SpeedSignal) -> Option<String> {
+    pub fn beside_set(&self, wish: &SpeedSignal) -> Option<Note> {
         let set = wish.set_speed?;
         let ratio = self.fastest.speed.abs() / set;
         if (ratio - 1.0).abs() <= BESIDE_SET {
             return None;
         }
-        let rpm = |speed: f64| units::number_text((speed * 30.0 / PI * 10.0).round() / 10.0);
+        let rpm = |speed: f64| (speed * 30.0 / PI * 10.0).round() / 10.0;
         let marks = wish.marks_per_revolution as f64 * ratio;
         let fits = match wish.kind {
-            PickupKind::Speed { .. } => "the unit of the channel (signals.speed.scale) or signals.speed.set_speed is wrong, or the test did not come there".to_string(),
-            _ if marks.round() >= 1.0 => format!(
+            PickupKind::Speed { .. } => note!(
+                "the unit of the channel (signals.speed.scale) or signals.speed.set_speed is wrong, or the test did not come there"
+            ),
+            _ if marks.round() >= 1.0 => note!(
                 "{} marks per revolution instead of {} would fit (signals.speed.marks_per_revolution); else signals.speed.set_speed is wrong, or the test did not come there",
                 marks.round(),
                 wish.marks_per_revolution
             ),
-            _ => "signals.speed.marks_per_revolution or signals.speed.set_speed is wrong".to_string(),
+            _ => note!("signals.speed.marks_per_revolution or signals.speed.set_speed is wrong"),
         };
-        Some(format!(
-            "the largest speed is {} rpm, and {} rpm were set, a ratio of {ratio:.3}; {fits}",
+        Some(note!(
+            "the largest speed is {} rpm, and {} rpm were set, a ratio of {:.3}; {}",
             rpm(self.fastest.speed.abs()),
-            rpm(set)
+            rpm(set),
+            ratio,
+            fits
         ))
     }
 }
@@ -417,7 +429,7 @@ fn passages(
         )
         .map(|mut edges| {
             if stamps.missing > 0 {
-                edges.notes.push(format!(
+                edges.notes.push(note!(
                     "{} instants are no numbers and were left out",
                     stamps.missing
                 ));

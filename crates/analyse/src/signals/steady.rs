@@ -5,6 +5,7 @@ use crate::signals::{shaft, torque};
 use identify::coasting::Windage;
 use identify::steady_curve::{Difference, SteadyCurve, compare, direct, inertial};
 use measure::inertia::{inertia_from_bifilar, inertia_from_known_torque, inertia_from_pendulum};
+use problem::{note, note::Note};
 use scenario::{InertiaSource, SteadySignal, TorqueSignal};
 use statistics::uncertain::Uncertain;
 
@@ -38,9 +39,9 @@ pub(crate) struct Estimate {
     /// What brakes the shaft without the bearing; it is taken out of `inertial`.
     pub windage: Result<Windage, String>,
     pub speed: Vec<f64>,
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// Why marks, inertia or scale may be wrong.
-    pub doubt: Option<String>,
+    pub doubt: Option<Note>,
 }
 
 impl Estimate {
@@ -104,12 +105,17 @@ impl Estimate {
             ("up", &up),
         ] {
             if let Ok(curve) = curve {
-                notes.extend(curve.notes.iter().map(|note| format!("{name}: {note}")));
+                notes.extend(
+                    curve
+                        .notes
+                        .iter()
+                        .map(|note| note!("{}: {}", name, note.clone())),
+                );
             }
         }
         // Asked for by its inertia, and not there though the other curve is.
         if let (Some(_), Err(why)) = (&wish.inertia, &inertial) {
-            notes.push(format!("by the slope of the speed: no curve: {why}"));
+            notes.push(note!("by the slope of the speed: no curve: {}", why));
         }
         let set = |first: &Result<SteadyCurve, String>, second: &Result<SteadyCurve, String>| match (
             first, second,
@@ -130,7 +136,7 @@ impl Estimate {
             None => sensor.and_then(|s| s.zero_deviation),
         };
         if zero.is_none() && (direct.is_ok() || up.is_ok()) {
-            notes.push(NO_ZERO.to_string());
+            notes.push(note!("{}", NO_ZERO));
         }
         let against = match zero {
             Some(_) => Ok(()),
@@ -162,7 +168,7 @@ impl Estimate {
 
 /// What is odd of a torque by the sensor beside that by the slope of the speed: a wrong number of marks makes the second wrong by its
 /// square or as much, a wrong inertia or scale by a factor.
-fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<String> {
+fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<Note> {
     let difference = compare(inertial, direct).ok()?;
     let level = |curve: &SteadyCurve| {
         let known = |k: &usize| direct.torque[*k].is_finite() && inertial.torque[*k].is_finite();
@@ -172,11 +178,13 @@ fn beside(direct: &SteadyCurve, inertial: &SteadyCurve) -> Option<String> {
     let ratio = level(inertial) / level(direct);
     let apart = difference.mean.value.abs() > APART * difference.mean.deviation;
     (apart && (ratio - 1.0).abs() > BESIDE).then(|| match ratio < 0.0 {
-        true => format!(
-            "by the slope of the speed it is {ratio:.2} times the torque of the sensor: the sign of the torque is reversed (signals.torque.scale = \"-1 N mm\" for a channel in N mm)"
+        true => note!(
+            "by the slope of the speed it is {:.2} times the torque of the sensor: the sign of the torque is reversed (signals.torque.scale = \"-1 N mm\" for a channel in N mm)",
+            ratio
         ),
-        false => format!(
-            "by the slope of the speed it is {ratio:.2} times the torque of the sensor: signals.speed.marks_per_revolution (or the unit of a speed), signals.steady.inertia or the scale of the torque is wrong, or more than the bearing brakes the shaft (signals.steady.windage_*)"
+        false => note!(
+            "by the slope of the speed it is {:.2} times the torque of the sensor: signals.speed.marks_per_revolution (or the unit of a speed), signals.steady.inertia or the scale of the torque is wrong, or more than the bearing brakes the shaft (signals.steady.windage_*)",
+            ratio
         ),
     })
 }

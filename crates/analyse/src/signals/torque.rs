@@ -11,6 +11,7 @@ use measure::torque_sensor::{
     Clipped, DesignError, Inversion, Sensor, Torque, identify_free_response, invert,
 };
 use outcome::Warning;
+use problem::{note, note::Note};
 use scenario::{Disturbance, SensorSource, TorqueSignal};
 use statistics::uncertain::Uncertain;
 use std::cmp::Ordering;
@@ -40,7 +41,7 @@ pub(crate) struct Estimate {
     pub sensor: Option<Sensor>,
     /// Spectrum of the reading; why there is none.
     pub spectrum: Result<Spectrum, String>,
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
     /// Error of the torque over the frequency of the sensor; why it is not known.
     pub design: Result<Vec<DesignError>, String>,
     /// Why a part of the torque is not told, its peak with it; none where all of it is.
@@ -52,7 +53,7 @@ pub(crate) struct Estimate {
 /// Values that are not to be trusted.
 pub(crate) struct Faulty {
     /// In words.
-    pub told: Vec<String>,
+    pub told: Vec<Note>,
     pub clipped: usize,
     pub stuck: usize,
     pub missing: usize,
@@ -109,7 +110,7 @@ pub(crate) fn faulty(series: &Series) -> Faulty {
         "no numbers (missing)",
     ];
     let told = (0..3).filter(|&kind| counts[kind] > 0).map(|kind| {
-        format!(
+        note!(
             "{} of {} values are {}, in {} stretches, the first at {:.6} s; they are not used",
             counts[kind],
             series.values.len(),
@@ -196,7 +197,9 @@ impl Estimate {
                 Some(inverted(series, faulty, wish, sensor, shaft, told)?)
             }
             None => {
-                notes.push("neither sensor_frequency nor tap_file is given: the reading is shown as it is, the swing of the sensor in it".to_string());
+                notes.push(note!(
+                    "neither sensor_frequency nor tap_file is given: the reading is shown as it is, the swing of the sensor in it"
+                ));
                 None
             }
         };
@@ -230,7 +233,7 @@ impl Estimate {
 fn sensor(
     wish: &TorqueSignal,
     tap: Option<&Series>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> Result<Option<Sensor>, String> {
     match (&wish.sensor, tap) {
         (
@@ -243,9 +246,9 @@ fn sensor(
             _,
         ) => {
             if *damping_ratio >= NO_SWING {
-                notes.push(format!(
+                notes.push(note!(
                     "a damping ratio of {} is that of a sensor that does not swing, as hardly a torque arm is: one that is too large shows torques that were not; a tap would measure it (signals.torque.tap_file)",
-                    units::number_text(*damping_ratio)
+                    damping_ratio
                 ));
             }
             Ok(Some(Sensor {
@@ -270,7 +273,12 @@ fn sensor(
                         tap.name
                     )
                 })?;
-            notes.extend(response.notes.iter().map(|note| format!("tap: {note}")));
+            notes.extend(
+                response
+                    .notes
+                    .into_iter()
+                    .map(|note| note!("tap: {}", note)),
+            );
             Ok(Some(response.sensor))
         }
         _ => Ok(None),
@@ -278,16 +286,14 @@ fn sensor(
 }
 
 /// A sensor as quick as the record shows: a quicker one follows at once, and its reading is the torque up to there.
-fn resolved(sensor: Sensor, interval: f64, notes: &mut Vec<String>) -> Sensor {
+fn resolved(sensor: Sensor, interval: f64, notes: &mut Vec<Note>) -> Sensor {
     let most = 1.0 / (IN_A_PERIOD * interval);
     if sensor.frequency.value <= most {
         return sensor;
     }
-    notes.push(format!(
+    notes.push(note!(
         "the sensor of {:.0} Hz is quicker than {:.0} values a second show: it is taken to follow at once, and a torque that changes within {:.0} ms is smeared; nothing is known of its swing after a sudden change",
-        sensor.frequency.value,
-        1.0 / interval,
-        2e3 * IN_A_PERIOD * interval
+        sensor.frequency.value, 1.0 / interval, 2e3 * IN_A_PERIOD * interval
     ));
     Sensor {
         frequency: Uncertain::exact(most),
@@ -319,7 +325,7 @@ fn inverted(
     wish: &TorqueSignal,
     sensor: Sensor,
     shaft: Option<&shaft::Estimate>,
-    (notes, doubts): (&mut Vec<String>, &mut Vec<Warning>),
+    (notes, doubts): (&mut Vec<Note>, &mut Vec<Warning>),
 ) -> Result<Torque, String> {
     let (stated, sensor) = (sensor, resolved(sensor, series.interval, notes));
     let turning = shaft
@@ -336,15 +342,15 @@ fn inverted(
             .map_or(from, |k| k + 1);
         let left = series.values.len() - (to - from);
         if left > FEW {
-            notes.push(format!(
-                "{left} values outside the record of the pickup are not used"
+            notes.push(note!(
+                "{} values outside the record of the pickup are not used",
+                left
             ));
         }
     } else if wish.disturbance != Disturbance::None && shaft.is_none() {
-        notes.push(
+        notes.push(note!(
             "the speed of the shaft is not known: its disturbance once a turn stays in the torque"
-                .to_string(),
-        );
+        ));
     }
     let reading = faulty.reading.get(from..to).unwrap_or(&[]);
     let (low, high) = range(reading);
@@ -374,7 +380,7 @@ fn inverted(
         && wish.disturbance != Disturbance::RunOut
         && rest.value.abs() > CONTRADICTS * stated.hypot(rest.deviation)
     {
-        let note = format!(
+        let note = note!(
             "while the shaft rests the reading is {:.4} N mm, which is {:.0} times the zero_deviation stated, {:.4} N mm: the zero has moved, or a run-out holds it (signals.torque.disturbance = \"run-out\"); the rest counts",
             1e3 * rest.value,
             rest.value.abs() / stated,
@@ -411,7 +417,9 @@ fn inverted(
         },
     };
     if !input.rests_at_first() && wish.zero_deviation.is_none() && rest.is_none() {
-        notes.push("the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known".to_string());
+        notes.push(note!(
+            "the shaft does not rest at first and zero_deviation is not given: the zero of the reading is not known"
+        ));
     }
     if let (Some(why), true) = (
         &faulty.at_limit,
@@ -422,20 +430,20 @@ fn inverted(
         ));
     }
     if !input.rests_at_first() {
-        notes.push(format!("the zero of the reading {of_zero}"));
+        notes.push(note!("the zero of the reading {}", of_zero));
     }
     let mut torque = invert(&input)?;
     notes.extend(torque.notes.iter().cloned());
     doubts.extend(torque.shown_frequency.map(|shown| {
         let hum = hum(shown, rests, series.interval);
         let note = match hum {
-            Some(amplitude) => format!(
-                "the reading swings at {shown:.1} Hz, by {:.3} N mm while the shaft rests as well: a hum of the mains, not the ringing of the sensor, which is {:.1} Hz as stated; the torque keeps its mean, its band is wider; look to the shield and the earth of the cable",
-                1e3 * amplitude, sensor.frequency.value
+            Some(amplitude) => note!(
+                "the reading swings at {:.1} Hz, by {:.3} N mm while the shaft rests as well: a hum of the mains, not the ringing of the sensor, which is {:.1} Hz as stated; the torque keeps its mean, its band is wider; look to the shield and the earth of the cable",
+                shown, 1e3 * amplitude, sensor.frequency.value
             ),
-            None => format!(
-            "after the engagement the reading rings at {shown:.1} Hz, and {:.1} Hz is stated of the sensor (signals.torque.sensor_frequency): the torque while it rings is that of the one stated; a tap tells which is right (signals.torque.tap_file)",
-            sensor.frequency.value
+            None => note!(
+                "after the engagement the reading rings at {:.1} Hz, and {:.1} Hz is stated of the sensor (signals.torque.sensor_frequency): the torque while it rings is that of the one stated; a tap tells which is right (signals.torque.tap_file)",
+                shown, sensor.frequency.value
             ),
         };
         let about = TORQUE.to_string();
@@ -443,10 +451,9 @@ fn inverted(
     }));
     if turning.is_none() && wish.disturbance != Disturbance::None {
         torque.hold_what_swings();
-        notes.push(
+        notes.push(note!(
             "the band of the torque holds what swings in it within half a second: a disturbance once a turn may be a part of that"
-                .to_string(),
-        );
+        ));
     }
     Ok(torque)
 }

@@ -5,6 +5,7 @@ use crate::signals::shaft;
 use crate::signals::spectrum::{FEWEST_COLUMNS, LONGEST};
 use measure::order::{Orders, orders};
 use measure::spectrum::{AngularSettings, order_spectrogram, spectrogram};
+use problem::{note, note::Note};
 use recording::unit::unit_in_si;
 use scenario::VibrationSignal;
 
@@ -32,7 +33,7 @@ pub(crate) struct Estimate {
     pub orders: Option<Orders>,
     pub over_time: Result<Picture, String>,
     pub over_order: Result<Picture, String>,
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Estimate {
@@ -47,9 +48,9 @@ impl Estimate {
         let turning = shaft.shaft();
         let mut notes = Vec::new();
         if unit == "1" {
-            notes.push(format!(
+            notes.push(note!(
                 "the unit \"{}\" of the file is none of a length, speed or acceleration: amplitudes are in it",
-                series.unit
+                &series.unit
             ));
         }
         let found = match wish.orders.as_slice() {

@@ -3,16 +3,16 @@
 problem::warnings! {
     /// Of measured signals.
     pub enum SignalsWarning {
-        File { about: text, note: words } "AB1040" Uncertain ("{about}: {note}.");
-        Channel { about: text, note: words } "AB1041" Uncertain ("{about}: {note}.");
-        Refused { what: text, place: words, why: words } "AB1042" Invalid ("No {what} from {place}: {why}.");
-        Estimate { about: text, note: words } "AB1043" Uncertain ("{about}: {note}.");
-        MarksPerRevolution { about: text, note: words } "AB1044" Invalid ("{about}: {note}.");
-        Cage { about: text, note: words } "AB1045" Uncertain ("{about}: {note}.");
-        SpeedChannel { about: text, note: words } "AB1120" Uncertain ("{about}: {note}.");
-        LargestSpeed { about: text, note: words } "AB1121" Uncertain ("{about}: {note}.");
-        SteadyCurve { about: text, note: words } "AB1122" Uncertain ("{about}: {note}.");
-        Zero { about: text, note: words } "AB1127" Invalid ("{about}: {note}.");
-        Ringing { about: text, note: words } "AB1128" Invalid ("{about}: {note}.");
+        File { about: text, note: note } "AB1040" Uncertain (note "{}: {}.", about.as_str(), note);
+        Channel { about: text, note: note } "AB1041" Uncertain (note "{}: {}.", about.as_str(), note);
+        Refused { what: text, place: words, why: note } "AB1042" Invalid (note "No {} from {}: {}.", what.as_str(), place, why);
+        Estimate { about: text, note: note } "AB1043" Uncertain (note "{}: {}.", about.as_str(), note);
+        MarksPerRevolution { about: text, note: note } "AB1044" Invalid (note "{}: {}.", about.as_str(), note);
+        Cage { about: text, note: note } "AB1045" Uncertain (note "{}: {}.", about.as_str(), note);
+        SpeedChannel { about: text, note: note } "AB1120" Uncertain (note "{}: {}.", about.as_str(), note);
+        LargestSpeed { about: text, note: note } "AB1121" Uncertain (note "{}: {}.", about.as_str(), note);
+        SteadyCurve { about: text, note: note } "AB1122" Uncertain (note "{}: {}.", about.as_str(), note);
+        Zero { about: text, note: note } "AB1127" Invalid (note "{}: {}.", about.as_str(), note);
+        Ringing { about: text, note: note } "AB1128" Invalid (note "{}: {}.", about.as_str(), note);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{Doubt, Finding};
 use crate::measurement::Measurement;
-use std::fmt;
+use problem::{note, note::Note};
 
 /// Settled torque over M, or M over it, from which M is not of the same bearing, load and temperature: what lubricants, slip
 /// and sensors do stays below it.
@@ -39,12 +39,11 @@ impl Finding {
             _ => false,
         }
     }
-}
 
-impl fmt::Display for Finding {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        let words = match self {
-            Finding::Reversed { moment } => format!(
+    /// What is found, as a sentence about the test.
+    pub fn note(&self) -> Note {
+        match self {
+            Finding::Reversed { moment } => note!(
                 "at steady speed the torque is {:.4} ± {:.4} N mm along the rotation, by which the bearing would drive the shaft: the sign of the reading is reversed (signals.torque.scale = \"-1 N mm\" for a channel in N mm)",
                 1e3 * moment.value,
                 1e3 * moment.deviation
@@ -55,17 +54,20 @@ impl fmt::Display for Finding {
                     true => ("most", expected.1),
                     false => ("least", expected.0),
                 };
-                format!(
-                    "at steady speed the torque is {:.4} N mm, where Palmgren's law has {:.4} N mm at {word} for a ball bearing of this size: the unit of the reading is wrong, by a factor of {:.0e} perhaps (signals.torque.scale, or the unit in the head of the file)",
+                note!(
+                    "at steady speed the torque is {:.4} N mm, where Palmgren's law has {:.4} N mm at {} for a ball bearing of this size: the unit of the reading is wrong, by a factor of {} perhaps (signals.torque.scale, or the unit in the head of the file)",
                     1e3 * moment,
                     1e3 * bound,
-                    10_f64.powf(3.0 * ((moment / middle).log10() / 3.0).round())
+                    word,
+                    format!("1e{}", 3 * ((moment / middle).log10() / 3.0).round() as i32)
                 )
             }
-            Finding::NeverReaches { reached, wanted } => format!(
-                "it reaches {reached:.4} rad/s, never the {wanted:.4} rad/s at which it is to be analysed"
+            Finding::NeverReaches { reached, wanted } => note!(
+                "it reaches {:.4} rad/s, never the {:.4} rad/s at which it is to be analysed",
+                reached,
+                wanted
             ),
-            Finding::OutsideMoment { part, range, .. } => format!(
+            Finding::OutsideMoment { part, range, .. } => note!(
                 "it runs outside {:.4} to {:.4} rad/s, where M was measured, for {:.1} % of its time: nothing is reported there",
                 range.0,
                 range.1,
@@ -75,19 +77,23 @@ impl fmt::Display for Finding {
                 speed,
                 difference,
                 ratio,
-            } => format!(
-                "the torque settles at {ratio:.3} of the steady moment at {speed:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
+            } => note!(
+                "the torque settles at {:.3} of the steady moment at {:.1} rad/s, {:.2} ± {:.2} N mm apart: the slow test belongs to another bearing, load or temperature, or the lubricant is in another state",
+                ratio,
+                speed,
                 1e3 * difference.value,
                 1e3 * difference.deviation
             ),
-            Finding::LoadOfSteadyMoment { load, steady_load } => format!(
-                "it was at {load} N, the steady moment at {steady_load} N: M is not that of this test"
+            Finding::LoadOfSteadyMoment { load, steady_load } => note!(
+                "it was at {} N, the steady moment at {} N: M is not that of this test",
+                load,
+                steady_load
             ),
             Finding::MixedLoads { loads } => {
                 let each: Vec<String> = (loads.iter())
                     .map(|(test, load)| format!("{test} {load} N"))
                     .collect();
-                format!(
+                note!(
                     "tests at different loads are together: {}; M and F depend on the load, analyse each load by itself",
                     each.join("; ")
                 )
@@ -96,45 +102,42 @@ impl fmt::Display for Finding {
                 stated,
                 fits,
                 ratio,
-            } => format!(
-                "the cage settles at {:.4} ± {:.4} of rolling with {stated} balls stated; {fits} balls would make it roll, or {:.3} times the marks per revolution that are stated",
+            } => note!(
+                "the cage settles at {:.4} ± {:.4} of rolling with {} balls stated; {} balls would make it roll, or {:.3} times the marks per revolution that are stated",
                 ratio.value,
                 ratio.deviation,
+                stated,
+                fits,
                 1.0 / ratio.value
             ),
-            Finding::CageNeverRolls { ratio } => format!(
+            Finding::CageNeverRolls { ratio } => note!(
                 "the cage settles at {:.4} ± {:.4} of rolling: it slips to the end, or radii, contact angle or marks per revolution are wrong",
-                ratio.value, ratio.deviation
+                ratio.value,
+                ratio.deviation
             ),
             Finding::TemperatureExplains {
                 rise,
                 expected,
                 difference,
-            } => format!(
-                "the outer race warmed by {rise:.2} K, which changes the moment by {:.2} to {:.2} N mm and explains all of its {:.2} ± {:.2} N mm",
+            } => note!(
+                "the outer race warmed by {:.2} K, which changes the moment by {:.2} to {:.2} N mm and explains all of its {:.2} ± {:.2} N mm",
+                rise,
                 1e3 * expected.0,
                 1e3 * expected.1,
                 1e3 * difference.value,
                 1e3 * difference.deviation
             ),
-            Finding::NotSettled { change, over } => format!(
-                "the torque still changes at the end of the hold: by {:.3} ± {:.3} N mm within {over:.2} s",
+            Finding::NotSettled { change, over } => note!(
+                "the torque still changes at the end of the hold: by {:.3} ± {:.3} N mm within {:.2} s",
                 1e3 * change.value,
-                1e3 * change.deviation
+                1e3 * change.deviation,
+                over
             ),
-            Finding::TooShort { lasts, needed } => format!(
-                "it holds its speed for {lasts:.3} s; {needed} s are needed to see whether the torque settles"
+            Finding::TooShort { lasts, needed } => note!(
+                "it holds its speed for {:.3} s; {} s are needed to see whether the torque settles",
+                lasts,
+                needed
             ),
-        };
-        out.write_str(&words)
-    }
-}
-
-impl fmt::Display for Doubt {
-    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
-        match &self.test {
-            Some(test) => write!(out, "{test}: {}", self.finding),
-            None => self.finding.fmt(out),
         }
     }
 }

@@ -28,6 +28,7 @@ use crate::moment::SteadyMoment;
 use crate::series::{alike, trapezoid};
 use nalgebra::{DMatrix, DVector};
 use physics::rolling::RollingSet;
+use problem::{note, note::Note};
 use statistics::uncertain::Uncertain;
 
 /// Most means that are used: their matrix is dense.
@@ -89,7 +90,7 @@ pub struct LossMap {
     wide_factor: Factor,
     range: (f64, f64, f64, f64),
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// F at a place of the map.
@@ -131,7 +132,7 @@ impl LossMap {
         let mut notes = Vec::new();
         if data.len() > MOST {
             let step = data.len().div_ceil(MOST);
-            notes.push(format!("every {step}th of {} means is used", data.len()));
+            notes.push(note!("every {}th of {} means is used", step, data.len()));
             data = data.into_iter().step_by(step).collect();
         }
         let errors = errors(&data, tests, steady, set, settings);
@@ -167,8 +168,9 @@ impl LossMap {
         let factor = covered(&data, &errors, &best).ok_or(undetermined)?;
         let friction = DVector::from_iterator(data.len(), data.iter().map(|d| d.friction));
         if most - least < 0.2 * most {
-            notes.push(format!(
-                "all accelerations are from {least:.0} to {most:.0} rad/s²: F0 and F1 are hardly distinguished"
+            notes.push(note!(
+                "all accelerations are from {:.0} to {:.0} rad/s²: F0 and F1 are hardly distinguished",
+                least, most
             ));
         }
         Ok(Self {

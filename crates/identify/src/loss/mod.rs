@@ -29,6 +29,7 @@ use crate::moment::{SteadyMoment, same_load};
 use crate::series::rates;
 use crate::slip::slip_at;
 use physics::rolling::RollingSet;
+use problem::{note, note::Note};
 use statistics::interpolation::between;
 use statistics::uncertain::Uncertain;
 
@@ -90,7 +91,7 @@ pub struct Loss {
     /// One point a time of the test.
     pub points: Vec<LossPoint>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// The friction of accelerated balls over a test.
@@ -117,15 +118,16 @@ pub fn loss(
     }
     let mut notes = Vec::new();
     if !same_load(test.load, steady.load) {
-        notes.push(format!(
+        notes.push(note!(
             "the test was at {} N, the steady moment at {} N: their difference is in F",
-            test.load, steady.load
+            test.load,
+            steady.load
         ));
     }
     if settings.rolling == Rolling::ByCage && test.cage.is_none() {
-        notes.push(
-            "no cage signal, and rolling is not stated: t_O - M is reported, F is not".into(),
-        );
+        notes.push(note!(
+            "no cage signal, and rolling is not stated: t_O - M is reported, F is not"
+        ));
     }
     let cage_rates = test.cage.as_ref().map(|cage| {
         let near = rates(&cage.time, &cage.speed, &cage.deviation, CAGE_WINDOW);
@@ -180,9 +182,9 @@ pub fn loss(
         .count();
     if outside > 0 {
         let (low, high) = steady.range();
-        notes.push(format!(
-            "{outside} of {} times lie outside the speeds of the steady moment, {low:.4} to {high:.4} rad/s: nothing is reported there",
-            points.len()
+        notes.push(note!(
+            "{} of {} times lie outside the speeds of the steady moment, {:.4} to {:.4} rad/s: nothing is reported there",
+            outside, points.len(), low, high
         ));
     }
     Ok(Loss { points, notes })

@@ -3,6 +3,7 @@
 use super::curve::SteadyMoment;
 use super::settings::Form;
 use crate::steady_curve::Difference;
+use problem::{note, note::Note};
 use statistics::uncertain::Uncertain;
 
 /// A number of a form.
@@ -51,7 +52,7 @@ pub struct Moment {
     /// The two slow tests of one direction that differ most, where they differ by more than their bands.
     pub unequal: Option<Unequal>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Moment {
@@ -82,11 +83,11 @@ impl Unequal {
     }
 
     /// What is found, with the names of the tests.
-    pub fn finding(&self) -> String {
-        format!(
+    pub fn finding(&self) -> Note {
+        note!(
             "the slow tests {} and {} differ by {:.2} ± {:.2} N mm, a ratio of {:.3}: M is a mean over different bearings, loads, temperatures or states of the lubricant; give those of one state",
-            self.tests.0,
-            self.tests.1,
+            &self.tests.0,
+            &self.tests.1,
             1e3 * self.difference.value,
             1e3 * self.difference.deviation,
             self.ratio

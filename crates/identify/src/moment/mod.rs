@@ -36,6 +36,7 @@ pub use settings::{Form, LEAST_SPEED, SLOW_ACCELERATION};
 use crate::measurement::Measurement;
 use fitted::{difference, fitted, speeds_up};
 use physics::rolling::RollingSet;
+use problem::note;
 
 /// Deviation of M outside the speeds at which it was measured, over M at the nearest of them, where it has to be carried on: it may
 /// be anything from none to twice that; assumed.
@@ -66,39 +67,47 @@ pub fn moment(
             (Ok(up), Ok(down)) => match difference(&up.curve, &down.curve) {
                 Ok(found) => {
                     if found.chance < 0.01 {
-                        notes.push(format!(
+                        notes.push(note!(
                             "speeding up and slowing down differ by {} N m: their mean is no steady moment",
-                            found.mean
+                            found.mean.to_string()
                         ));
                     }
                     up_against_down = Some(found);
                 }
-                Err(why) => notes.push(format!("up and down are not compared: {why}")),
+                Err(why) => notes.push(note!("up and down are not compared: {}", why)),
             },
-            _ => notes.push("up and down are not compared: one of them alone is too short".into()),
+            _ => notes.push(note!(
+                "up and down are not compared: one of them alone is too short"
+            )),
         }
     }
     if let Some(best) = whole.forms.first() {
         for parameter in &best.parameters {
             let found = parameter.value;
             if !parameter.name.starts_with("zero") && found.value < -2.0 * found.deviation {
-                notes.push(format!(
-                    "{} of the most probable form is negative ({found} {}): no such law",
-                    parameter.name, parameter.unit
+                notes.push(note!(
+                    "{} of the most probable form is negative ({} {}): no such law",
+                    &parameter.name,
+                    found.to_string(),
+                    parameter.unit
                 ));
             }
         }
         if best.noise_correlation > 0.9 {
-            notes.push(format!(
+            notes.push(note!(
                 "errors of neighbouring means correlate by {:.2}: slow noise and the shape of the curve are hard to separate",
                 best.noise_correlation
             ));
         }
     }
     if viscosity.is_none() {
-        notes.push("the viscosity is not known: Palmgren's floor is averaged over viscosities from 5 to 450 mm²/s".into());
+        notes.push(note!(
+            "the viscosity is not known: Palmgren's floor is averaged over viscosities from 5 to 450 mm²/s"
+        ));
     }
-    notes.push("no SKF law is given: its form stands without shear heating, starvation and change of sliding friction".into());
+    notes.push(note!(
+        "no SKF law is given: its form stands without shear heating, starvation and change of sliding friction"
+    ));
     whole.notes = notes;
     whole.up_against_down = up_against_down;
     whole.unequal = unequal::unequal(tests, set, viscosity);

@@ -8,6 +8,7 @@
 //!   n         (windows + 1)/2: half of each is in the next
 //! ```
 
+use problem::{note, note::Note};
 use statistics::uncertain::Uncertain;
 
 /// Friction at one time.
@@ -200,19 +201,18 @@ pub(super) fn mean(part: &[&Window], correlation_time: f64) -> FrictionPoint {
 }
 
 /// What is worth a word: a swing, or that nothing averages it out.
-pub(super) fn note(windows: &[Window]) -> Option<String> {
+pub(super) fn note(windows: &[Window]) -> Option<Note> {
     if !windows.iter().any(Window::whole) {
-        return Some(
+        return Some(note!(
             "the rotor slides for less than a turn at a time: what its unbalance swings is not averaged out of μ, and is in its band"
-                .to_string(),
-        );
+        ));
     }
     let whole = || windows.iter().filter(|window| window.whole());
     let count = whole().map(|window| window.count).sum::<f64>();
     let mean = |f: &dyn Fn(&Window) -> f64| whole().map(|w| w.count * f(w)).sum::<f64>() / count;
     let (swing, size) = (mean(&|w| w.swing * w.swing).sqrt(), mean(&|w| w.friction));
     (swing > NOTED * size.abs()).then(|| {
-        format!(
+        note!(
             "μ swings by ± {:.0} % (one deviation) within a turn of the rotor, where its load is taken as it is given: means over whole turns count, not single points",
             100.0 * swing / size.abs()
         )

@@ -17,6 +17,7 @@ pub use compare::{Difference, compare};
 
 use crate::regression::{Data, Posterior, spline, weighed};
 use nalgebra::DMatrix;
+use problem::{note, note::Note};
 use statistics::uncertain::Uncertain;
 
 /// About as many means as are fitted. Few, so that noise faster than a mean averages out and what is left is near a first-order
@@ -48,7 +49,7 @@ pub struct SteadyCurve {
     /// of one curve it is the same in both. Empty where it is not known.
     pub smoothing: Vec<Vec<f64>>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl SteadyCurve {
@@ -131,7 +132,11 @@ pub fn inertial(
     let mut curve = smooth.drawn(at, &rows, -inertia.value);
     curve.scale_deviation = inertia.deviation / inertia.value;
     if turned > 0 {
-        curve.notes.push(format!("the speed turns back during {turned} of {steps} parts of the record: the first pass counts"));
+        curve.notes.push(note!(
+            "the speed turns back during {} of {} parts of the record: the first pass counts",
+            turned,
+            steps
+        ));
     }
     Ok(curve)
 }
@@ -140,7 +145,7 @@ pub fn inertial(
 struct Smooth {
     range: (f64, f64),
     posterior: Posterior,
-    notes: Vec<String>,
+    notes: Vec<Note>,
 }
 
 impl Smooth {
@@ -151,7 +156,7 @@ impl Smooth {
             .filter(|&k| x[k].is_finite() && y[k].is_finite())
             .collect();
         if known.len() < x.len() {
-            notes.push(format!(
+            notes.push(note!(
                 "{} of {} values are missing",
                 x.len() - known.len(),
                 x.len()
@@ -189,7 +194,7 @@ impl Smooth {
         let posterior =
             weighed(&data, &columns, &precisions).ok_or("the values do not determine a curve")?;
         if posterior.correlation > INSEPARABLE {
-            notes.push(format!(
+            notes.push(note!(
                 "residuals of neighbouring values correlate by {:.3}: slow noise and the shape of the curve are hard to separate",
                 posterior.correlation
             ));
@@ -236,7 +241,7 @@ impl Smooth {
             }
         }
         if inside.len() < at.len() {
-            curve.notes.push(format!(
+            curve.notes.push(note!(
                 "{} of {} speeds lie outside the record and have no torque",
                 at.len() - inside.len(),
                 at.len()

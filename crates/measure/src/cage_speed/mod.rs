@@ -49,5 +49,5 @@ pub struct CageSpeed {
     /// Noise of one observation of the cage angle, rms, rad.
     pub noise: f64,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<problem::note::Note>,
 }

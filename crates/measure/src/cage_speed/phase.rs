@@ -4,6 +4,7 @@ use super::CageSpeed;
 use crate::quantile::noise;
 use crate::shaft::Shaft;
 use crate::state_space::{Belief, Filter, Matrix, Observation, Vector, colour};
+use problem::{note, note::Note};
 use statistics::simplex;
 use std::f64::consts::PI;
 
@@ -68,7 +69,7 @@ impl Deviations<'_> {
         &self,
         shaft: &Shaft,
         ratio: f64,
-        mut notes: Vec<String>,
+        mut notes: Vec<Note>,
     ) -> Result<CageSpeed, String> {
         let seen = self.deviation.iter().filter(|v| v.is_finite()).count();
         if seen < 8 {
@@ -123,7 +124,7 @@ impl Deviations<'_> {
             }
         }
         if wide > 1.5 {
-            notes.push(format!(
+            notes.push(note!(
                 "the noise of the cage angle is correlated; bands are wider by {:.2}",
                 wide.sqrt()
             ));
@@ -134,8 +135,9 @@ impl Deviations<'_> {
             .filter(|e| e.abs() > 5.0)
             .count();
         if outliers > 0 {
-            notes.push(format!(
-                "{outliers} passings lie more than 5 deviations from where they are expected"
+            notes.push(note!(
+                "{} passings lie more than 5 deviations from where they are expected",
+                outliers
             ));
         }
         let mut result = CageSpeed {
@@ -175,7 +177,7 @@ impl Deviations<'_> {
             });
         }
         if result.slip.iter().any(|s| s.is_nan()) {
-            notes.push("slip has no value where the shaft rests".into());
+            notes.push(note!("slip has no value where the shaft rests"));
         }
         result.notes = notes;
         Ok(result)

@@ -4,6 +4,7 @@ use super::phase::Deviations;
 use super::{CageSpeed, QuickChange};
 use crate::quantile::median;
 use crate::shaft::Shaft;
+use problem::{note, note::Note};
 use std::f64::consts::TAU;
 
 /// Time after an engagement in which no passing is taken to be missing, s.
@@ -41,7 +42,7 @@ pub fn from_pulses(
         .filter(|&t| shaft.covers(t))
         .collect();
     if inside.len() < passings.len() {
-        notes.push(format!(
+        notes.push(note!(
             "{} passings lie outside the record of the shaft and were left out",
             passings.len() - inside.len()
         ));
@@ -62,14 +63,15 @@ pub fn from_pulses(
     if turns >= 6.0 {
         let spread = spacing(&mut deviation, &index, balls);
         if spread > 0.1 * pitch {
-            notes.push(format!(
+            notes.push(note!(
                 "the balls' spacing differs by {:.1} % of a pitch rms",
                 100.0 * spread / pitch
             ));
         }
     } else {
-        notes.push(format!(
-            "{turns:.1} turns of the cage are too few to take out errors of the ball spacing"
+        notes.push(note!(
+            "{:.1} turns of the cage are too few to take out errors of the ball spacing",
+            turns
         ));
     }
     let data = Deviations {
@@ -90,7 +92,7 @@ fn counted(
     rolled: &[f64],
     pitch: f64,
     engagement: Option<f64>,
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> (Vec<f64>, Vec<i64>, Vec<f64>) {
     // Pitches that a rolling cage would have gone between passings; 1/(1 - slip) where none is missing.
     let advance: Vec<f64> = rolled
@@ -119,10 +121,10 @@ fn counted(
         since = 0.0;
     }
     if missing > 0 {
-        notes.push(format!("{missing} passings are missing"));
+        notes.push(note!("{} passings are missing", missing));
     }
     if doubles > 0 {
-        notes.push(format!("{doubles} passings came double and were left out"));
+        notes.push(note!("{} passings came double and were left out", doubles));
     }
     (times, index, expected)
 }

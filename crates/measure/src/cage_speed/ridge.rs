@@ -22,6 +22,7 @@ use super::path::{APART, HOP, LENGTH, OVERLAPS, Path, RIVAL_HALF, Rival, followe
 use super::phase::Deviations;
 use crate::quantile::median;
 use crate::shaft::Shaft;
+use problem::{note, note::Note};
 use std::f64::consts::{PI, TAU};
 
 /// Where a line is expected.
@@ -108,13 +109,13 @@ pub fn from_vibration(
     }
     let mut notes = Vec::new();
     if lost > 0.0 {
-        notes.push(format!(
+        notes.push(note!(
             "the line is lost in noise during {:.1} % of the record: there is no value there",
             100.0 * lost
         ));
     }
     if in_doubt > 0.0 {
-        notes.push(format!(
+        notes.push(note!(
             "another path of the line is as likely during {:.1} % of the record: there is no value there",
             100.0 * in_doubt
         ));
@@ -169,7 +170,9 @@ pub fn from_vibration(
         .filter(|s| **s < slips.0 + edge || **s > slips.1 - edge)
         .count();
     if at_edge * 50 > slip.len() {
-        notes.push("the line runs along the limit of the slip that is looked for".into());
+        notes.push(note!(
+            "the line runs along the limit of the slip that is looked for"
+        ));
     }
     let data = Deviations {
         time: &time,
@@ -188,8 +191,9 @@ pub fn from_vibration(
     let mean = found.noise * line.order;
     // At 0.45 rad one value in 7 million passes half a turn by noise alone; the model's own wander comes on top.
     if mean > 0.45 {
-        found.notes.push(format!(
-            "the line's phase has a noise of {mean:.2} rad: it may have lost or won whole cycles, whose chance is in the band"
+        found.notes.push(note!(
+            "the line's phase has a noise of {:.2} rad: it may have lost or won whole cycles, whose chance is in the band",
+            mean
         ));
     }
     with_lost_cycles(&mut found, &noise, periods);
@@ -211,11 +215,9 @@ pub fn from_vibration(
     }
     let left = cuts.iter().filter(|cut| cut.0 && !cut.1).count();
     if left > 0 {
-        found.notes.push(format!(
+        found.notes.push(note!(
             "the line leaves the slips from {:.3} to {:.3}, or its path, during {:.1} % of the time: there is no value there",
-            slips.0,
-            slips.1,
-            100.0 * left as f64 / cuts.len() as f64
+            slips.0, slips.1, 100.0 * left as f64 / cuts.len() as f64
         ));
     }
     let gone = cuts.iter().filter(|cut| cut.0 || cut.1).count();
@@ -356,7 +358,7 @@ fn rivals(
     path: &Path,
     usable: impl Fn(usize) -> bool,
     slips: (f64, f64),
-) -> Result<Option<String>, String> {
+) -> Result<Option<Note>, String> {
     let slip = |travel: f64| path.smooth_at(travel);
     // Turned back by its own slip the ridge is what changes slowly.
     let mut cells = turned.cells(HOP, OVERLAPS, slip);
@@ -418,8 +420,12 @@ fn rivals(
     };
     let part = found.amplitude / amplitude.max(f64::MIN_POSITIVE);
     let order = turned.periods * (1.0 - at);
-    let text = format!(
-        "beside the line about the slip {mean:.3} there is another {how} {at:.3} (order {order:.2} of the shaft) with {:.0} % of its amplitude",
+    let text = note!(
+        "beside the line about the slip {:.3} there is another {} {:.3} (order {:.2} of the shaft) with {:.0} % of its amplitude",
+        mean,
+        how,
+        at,
+        order,
         100.0 * part
     );
     if part > REFUSED {
@@ -431,7 +437,7 @@ fn rivals(
 }
 
 /// Reports where the ridge stays at an order of the shaft.
-fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
+fn at_order(found: &CageSpeed, periods: f64) -> Option<Note> {
     let slips = || found.slip.iter().copied().filter(|v| v.is_finite());
     slips().next()?;
     let slip = median(slips());
@@ -442,8 +448,9 @@ fn at_order(found: &CageSpeed, periods: f64) -> Option<String> {
     let steady = median(slips().map(|s| (s - slip).abs())) < 0.5 * limit;
     let at = order >= 1.0 && (periods * (1.0 - slip) - order).abs() < limit * periods;
     (steady && at).then(|| {
-        format!(
-            "the line stays at order {order} of the shaft: a line of the shaft itself looks the same"
+        note!(
+            "the line stays at order {} of the shaft: a line of the shaft itself looks the same",
+            order
         )
     })
 }

@@ -15,6 +15,7 @@ mod banded;
 
 use crate::shaft::Shaft;
 use banded::Banded;
+use problem::{note, note::Note};
 use std::f64::consts::{PI, TAU};
 
 /// Nodes per period of the bandwidth.
@@ -54,7 +55,7 @@ pub struct Orders {
     /// The signal without its orders but with its mean, at its own times; NaN where shaft or signal are missing.
     pub rest: Vec<f64>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// Follows orders in a signal with values at equal `interval` from the time `first` on, s.
@@ -207,9 +208,9 @@ pub fn orders(
             .filter(|&&t| order * shaft.speed_at(t.min(shaft.last())).abs() < TAU * 2.0 * bandwidth)
             .count();
         if slow > 0 {
-            notes.push(format!(
-                "order {order} is below twice the bandwidth during {:.0} % of the time: it cannot be separated from the mean there",
-                100.0 * slow as f64 / count as f64
+            notes.push(note!(
+                "order {} is below twice the bandwidth during {:.0} % of the time: it cannot be separated from the mean there",
+                order, 100.0 * slow as f64 / count as f64
             ));
         }
     }

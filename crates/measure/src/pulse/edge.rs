@@ -7,6 +7,7 @@ use super::level::Levels;
 use super::shape::Shape;
 use super::spike;
 use super::{Edges, Flank, Refusal};
+use problem::note;
 
 /// Samples on each side of a crossing that a straight line is laid through, at most.
 const REACH: usize = 24;
@@ -56,15 +57,17 @@ pub fn edges(first: f64, interval: f64, samples: &[f64], flank: Flank) -> Result
         .filter(|pair| pair[0].is_finite() && !pair[1].is_finite())
         .count();
     if gaps > 0 {
-        notes.push(format!(
-            "the signal has {gaps} gaps; no flank is counted across a gap"
+        notes.push(note!(
+            "the signal has {} gaps; no flank is counted across a gap",
+            gaps
         ));
     }
     let flips = flips(samples, &levels);
     let (flips, spikes) = spike::without(flips);
     notes.extend(spikes.map(|(count, sample)| {
-        format!(
-            "{count} spikes beside pulses many times as wide, the first at {:.6} s: left out",
+        note!(
+            "{} spikes beside pulses many times as wide, the first at {:.6} s: left out",
+            count,
             first + interval * sample as f64
         )
     }));

@@ -7,16 +7,17 @@
 
 use super::period::{ALIKE, Correlated, less};
 use super::{Pulses, Refusal};
+use problem::{note, note::Note};
 
 /// What the pulses of a wheel say of the marks that were stated.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Marks {
     /// The pattern of intervals repeats with the stated revolution.
     Shown,
     /// It repeats, but with something else.
     Contradicted(Refusal),
     /// It does not show, and why.
-    Unclear(String),
+    Unclear(Note),
 }
 
 /// Chance from which on a wheel of independent marks looks like one of equal parts as one in a hundred does: sampling moves
@@ -103,15 +104,18 @@ pub fn check_marks(pulses: &Pulses) -> Marks {
 /// Why nothing is clear.
 fn unclear(pulses: &Pulses, seen: Option<&Correlated>) -> Marks {
     let Some(seen) = seen else {
-        return Marks::Unclear("too few pulses follow each other without a fault".to_string());
+        return Marks::Unclear(note!("too few pulses follow each other without a fault"));
     };
     let turns = seen.count as f64 / pulses.positions as f64;
     Marks::Unclear(match pulses.sample_interval {
-        _ if turns < 3.0 => format!("{turns:.1} revolutions are too few to see a pattern repeat"),
-        Some(interval) => format!(
+        _ if turns < 3.0 => note!(
+            "{:.1} revolutions are too few to see a pattern repeat",
+            turns
+        ),
+        Some(interval) => note!(
             "at {:.1} samples a mark no errors of the marks stand out of those of their instants, or they are in step with the sampling",
             seen.gap / interval
         ),
-        None => "no errors of the marks stand out of the noise of their instants".to_string(),
+        None => note!("no errors of the marks stand out of the noise of their instants"),
     })
 }

@@ -31,6 +31,7 @@ mod train;
 mod undersampled;
 mod wheel;
 
+use problem::note::Note;
 use std::fmt;
 
 pub use edge::edges;
@@ -75,7 +76,7 @@ pub struct Edges {
     /// Intervals within that in which there is no signal, s, in order.
     pub unwatched: Vec<(f64, f64)>,
     /// What was found wrong, and what was done about it.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Edges {

@@ -5,6 +5,7 @@ use super::undersampled::undersampled;
 use super::wheel::Wheel;
 use super::{Edges, Flank, Gap, Refusal};
 use crate::quantile::median;
+use problem::{note, note::Note};
 use statistics::normal::MEDIAN_OF_SIZE;
 
 /// Passages with the number of the mark that passed.
@@ -31,7 +32,7 @@ pub struct Pulses {
     /// Pulses that were left out or had to be assumed, as a part of all.
     pub repaired: f64,
     /// What was found wrong, and what was done about it.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Pulses {
@@ -126,7 +127,7 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     }
     let (kept, extra) = without_doubles(&main, &edges.times);
     if let Some(&first) = extra.first() {
-        notes.push(format!(
+        notes.push(note!(
             "{} pulses too many, the first at {:.6} s: left out",
             extra.len(),
             edges.times[first]
@@ -165,20 +166,21 @@ pub fn number(edges: &Edges, wheel: &Wheel) -> Result<Pulses, Refusal> {
     }
     let reference = reference(&references, wheel, &mut notes);
     if let Some(time) = first_lost {
-        notes.push(format!(
-            "{lost} pulses missing, the first after {time:.6} s: counted as if they had come"
+        notes.push(note!(
+            "{} pulses missing, the first after {:.6} s: counted as if they had come",
+            lost,
+            time
         ));
     }
     if edges.unseen > HIDDEN {
-        notes.push(format!(
+        notes.push(note!(
             "the first pulse, at {:.6} s, is only {:.1} times as high as what the noise hides: marks may have passed unseen before it",
-            edges.times[kept[0]],
-            edges.unseen.recip()
+            edges.times[kept[0]], edges.unseen.recip()
         ));
     }
     let repaired = (repairs + extra.len()) as f64 / edges.times.len().max(1) as f64;
     if repaired > 0.05 {
-        notes.push(format!(
+        notes.push(note!(
             "{:.0} % of the pulses had to be repaired: do not trust this channel",
             100.0 * repaired
         ));
@@ -259,7 +261,7 @@ fn without_strays(
     marks: Vec<i64>,
     edges: &Edges,
     silent: &[Gap],
-    notes: &mut Vec<String>,
+    notes: &mut Vec<Note>,
 ) -> (Vec<usize>, Vec<i64>) {
     let times = &edges.times;
     // Pulses on both sides of a gap say nothing of each other.
@@ -296,7 +298,7 @@ fn without_strays(
     let Some(&first) = strays.first() else {
         return (which, marks);
     };
-    notes.push(format!(
+    notes.push(note!(
         "{} pulses far from where their neighbours put the mark, the first at {:.6} s: left out",
         strays.len(),
         times[which[first]]
@@ -438,21 +440,27 @@ fn silent(kept: &[usize], edges: &Edges, steps: &mut [i64], wheel: &Wheel) -> Ve
 }
 
 /// A gap in words.
-fn in_words(gap: &Gap) -> String {
+fn in_words(gap: &Gap) -> Note {
     let Gap { from, to, .. } = gap;
     let passed = gap.positions - 1;
     match gap.sure {
-        true => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: {passed} marks passed unseen, and what is given in between follows from both sides"
+        true => note!(
+            "the pickup is silent from {:.6} s to {:.6} s: {} marks passed unseen, and what is given in between follows from both sides",
+            from,
+            to,
+            passed
         ),
-        false => format!(
-            "the pickup is silent from {from:.6} s to {to:.6} s: about {passed} marks passed unseen, how many is not sure; angles before and after do not join"
+        false => note!(
+            "the pickup is silent from {:.6} s to {:.6} s: about {} marks passed unseen, how many is not sure; angles before and after do not join",
+            from,
+            to,
+            passed
         ),
     }
 }
 
 /// Position after the left-out marks, from the long intervals that look like them.
-fn reference(found: &[i64], wheel: &Wheel, notes: &mut Vec<String>) -> Option<usize> {
+fn reference(found: &[i64], wheel: &Wheel, notes: &mut Vec<Note>) -> Option<usize> {
     if wheel.missing == 0 {
         return None;
     }
@@ -465,16 +473,15 @@ fn reference(found: &[i64], wheel: &Wheel, notes: &mut Vec<String>) -> Option<us
     match best {
         Some((&place, &times)) if 2 * times > found.len() => {
             if times < found.len() {
-                notes.push(format!(
+                notes.push(note!(
                     "{} of {} gaps of the length of the reference gap are elsewhere: pulses missing there",
-                    found.len() - times,
-                    found.len()
+                    found.len() - times, found.len()
                 ));
             }
             Some(place as usize)
         }
         _ => {
-            notes.push(format!(
+            notes.push(note!(
                 "the gap of {} left-out marks was not found",
                 wheel.missing
             ));

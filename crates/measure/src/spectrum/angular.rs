@@ -3,6 +3,7 @@
 use super::transformed;
 use crate::kernel::Kernel;
 use crate::shaft::Shaft;
+use problem::{note, note::Note};
 use std::f64::consts::TAU;
 
 /// How a signal is brought to equal angles.
@@ -26,7 +27,7 @@ pub struct OrderSpectrogram {
     /// Amplitude that a sine at this order has in each segment, unit of the signal, peak.
     pub amplitude: Vec<Vec<f64>>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// Spectra over order of a signal with values at equal `interval` from the time `first` on, s.
@@ -110,9 +111,10 @@ pub fn order_spectrogram(
     }
     let highest = settings.highest_order * shaft.fastest() / TAU;
     if highest * interval > 0.4 && slow > 0 {
-        notes.push(format!(
-            "order {} reaches {highest:.0} Hz, more than the signal holds ({:.0} Hz)",
+        notes.push(note!(
+            "order {} reaches {:.0} Hz, more than the signal holds ({:.0} Hz)",
             settings.highest_order,
+            highest,
             0.4 / interval
         ));
     }
@@ -135,8 +137,9 @@ pub fn order_spectrogram(
         });
     }
     if lost > 0 {
-        notes.push(format!(
-            "{lost} of {} segments have missing values",
+        notes.push(note!(
+            "{} of {} segments have missing values",
+            lost,
             time.len()
         ));
     }

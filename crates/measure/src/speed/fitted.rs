@@ -9,6 +9,7 @@ use super::smoothness::{self, Smoothness};
 use super::track::Track;
 use super::transient;
 use crate::pulse::Refusal;
+use problem::note::Note;
 
 /// Passages before a quick change that show how the shaft turned before it.
 pub(super) const QUIET_BEFORE: usize = 12;
@@ -20,7 +21,7 @@ pub(super) fn fitted(
     data: &mut Data,
     sight: Option<&Sight>,
     (noise, density): (Noise, f64),
-    notes: Vec<String>,
+    notes: Vec<Note>,
 ) -> Result<Speed, Refusal> {
     let n = data.passages.len();
     let mut base = Plan::steady(noise, density);

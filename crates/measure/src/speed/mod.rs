@@ -43,6 +43,7 @@ pub use design::marks_needed;
 use fitted::{QUIET_BEFORE, fitted};
 pub use motion::{Change, Motion};
 use plan::Data;
+use problem::{note, note::Note};
 pub use settings::{SpeedSettings, Transient};
 pub use smoothed::Speed;
 use stop::Stop;
@@ -120,18 +121,18 @@ pub fn smooth(
     }
     let mut notes = pulses.notes.clone();
     if (all - n) as f64 > IN_STEP * all as f64 {
-        notes.push(format!(
-            "{} of {all} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; another sampling rate, or another number of marks, would show more",
-            all - n
+        notes.push(note!(
+            "{} of {} pulses are left out: a mark takes a whole number of samples there, so that their errors are one error; another sampling rate, or another number of marks, would show more",
+            all - n, all
         ));
     }
     let quiet_from = sight.map_or(0, |s| s.after.min(n));
     let (noise, density) = if n - quiet_from >= 12 {
         fit::quiet(&data, (quiet_from + (n - quiet_from) / 20).min(n)..n)
     } else {
-        notes.push(
-            "fewer than 12 pulses at steady speed: the noise of the pulses is assumed".into(),
-        );
+        notes.push(note!(
+            "fewer than 12 pulses at steady speed: the noise of the pulses is assumed"
+        ));
         fit::quiet(&data, n.saturating_sub(12)..n)
     };
     let mut speed = fitted(&mut data, sight.as_ref(), (noise, density), notes)?;
@@ -156,7 +157,7 @@ pub fn smooth(
         && sight.first < QUIET_BEFORE
     {
         change.engagement.1 = change.engagement.1.hypot(open);
-        speed.notes.push(format!(
+        speed.notes.push(note!(
             "the speed changes quickly from mark {} of the record on: the change may have begun before, and when it began is unknown; needed: a record that begins at rest, or some turns earlier",
             sight.first + 1
         ));
@@ -206,14 +207,14 @@ fn since_rest(speed: &Speed, change: &Change) -> f64 {
 }
 
 /// Says that marks end at a speed from which a shaft does not stop at once.
-fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<String> {
+fn fell_silent(pulses: &Pulses, speed: &Speed) -> Option<Note> {
     let last = *pulses.times.last()?;
     let rate = speed.at(last).speed / pulses.pitch();
     let silent = pulses.watched.1 - last;
     (silent * rate > STUCK).then(|| {
-        format!(
-            "no mark came after {last:.4} s, for {silent:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is given behind does not follow from the pulses",
-            rate * pulses.pitch()
+        note!(
+            "no mark came after {:.4} s, for {:.4} s, though the shaft turned at {:.1} rad/s: the pickup is stuck, its pulses sank into the noise, or the shaft stopped at once; what is given behind does not follow from the pulses",
+            last, silent, rate * pulses.pitch()
         )
     })
 }

@@ -8,6 +8,7 @@ use super::stop::Stop;
 use super::track::{Track, mixed};
 use super::transition::Belief;
 use crate::pulse::Gap;
+use problem::note::Note;
 
 /// The motion of a shaft over a record, with covariance.
 #[derive(Clone, Debug)]
@@ -34,7 +35,7 @@ pub struct Speed {
     /// Factor on the stated uncertainty of the instants that the pulses themselves ask for.
     pub timing_factor: f64,
     /// What was found, and what should not be trusted.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Speed {

@@ -24,6 +24,7 @@ use super::chain::{COSINE, Chain, Knots, Pass, RATE, SINE, Samples, TORQUE, ZERO
 use super::input::Inversion;
 use super::shown;
 use crate::state_space::{colour, correlation};
+use problem::{note, note::Note};
 use statistics::normal::below;
 use statistics::uncertain::Uncertain;
 
@@ -53,7 +54,7 @@ pub struct Torque {
     /// Frequency at which the reading rings after the engagement, Hz, where it is surely not that of the sensor as stated.
     pub shown_frequency: Option<f64>,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 impl Torque {
@@ -130,7 +131,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         .engagement
         .filter(|e| inside(e) && input.rests_at_first());
     if input.engagement.is_some_and(|given| !inside(&given)) {
-        notes.push("the engagement lies outside the record and is not used".into());
+        notes.push(note!(
+            "the engagement lies outside the record and is not used"
+        ));
     }
     let knot = engagement.map(|e| e.value);
     let lock =
@@ -189,9 +192,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         .collect();
     if !others.is_empty() && growths[..=others.len()].iter().any(|g| g.0 == 0.0) {
         notes.push(
-            "the record does not show whether the disturbance once a turn grows with speed or is there at rest too: mean and band hold both"
-                .to_string(),
-        );
+            note!(
+                "the record does not show whether the disturbance once a turn grows with speed or is there at rest too: mean and band hold both"
+            ));
     }
     let base = mixed(&likely, &others);
     let mut variance: Vec<f64> = base.states.iter().map(|s| colour * s.1[TORQUE]).collect();
@@ -260,7 +263,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
     }
     let noise = hyper[0].exp() * spread;
     if engagement.is_none() {
-        notes.push("no rest before the test: a jump of the torque is smeared".into());
+        notes.push(note!(
+            "no rest before the test: a jump of the torque is smeared"
+        ));
     }
     doubts(input, &likely, colour, &mut notes);
     for (v, state) in variance.iter_mut().zip(&base.states) {
@@ -335,10 +340,9 @@ pub fn invert(input: &Inversion) -> Result<Torque, String> {
         zero.deviation = zero.deviation.hypot(by);
         let count = torque.iter().filter(|value| value.is_nan()).count();
         if count > 0 {
-            notes.push(format!(
+            notes.push(note!(
                 "the torque is unknown for {:.3} s of {:.3} s: readings there, or beside, are clipped, and the true ones may lie beyond by any amount",
-                count as f64 * samples.interval,
-                torque.len() as f64 * samples.interval
+                count as f64 * samples.interval, torque.len() as f64 * samples.interval
             ));
         }
     }
@@ -429,7 +433,7 @@ fn scale_of(reading: &[f64]) -> f64 {
 /// Factor on the bands from which on it is reported.
 const REPORTED: f64 = 1.05;
 
-fn doubts(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) {
+fn doubts(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<Note>) {
     let unknown = |part: &[f64]| part.iter().filter(|v| !v.is_finite()).count();
     let clipped = input.clipped.iter().map(|part| {
         let end = (part.first + part.count).min(input.reading.len());
@@ -437,28 +441,30 @@ fn doubts(input: &Inversion, base: &Pass, colour: f64, notes: &mut Vec<String>) 
     });
     let missing = unknown(input.reading) - clipped.sum::<usize>().min(unknown(input.reading));
     if missing > 0 {
-        notes.push(format!(
-            "{missing} torque readings are missing and were bridged"
+        notes.push(note!(
+            "{} torque readings are missing and were bridged",
+            missing
         ));
     }
     let count = base.innovations.len() as f64;
     let correlation = correlation(&base.innovations, 1);
     // Three standard deviations of a correlation of white noise; one that leaves the bands as they are shows nothing.
     if correlation.abs() > 3.0 / count.sqrt() && colour.sqrt() >= REPORTED {
-        notes.push(format!(
-            "successive innovations of the torque sensor correlate by {correlation:.2}: noise or sensor differ from their model; bands are wider by {:.2}",
-            colour.sqrt()
+        notes.push(note!(
+            "successive innovations of the torque sensor correlate by {:.2}: noise or sensor differ from their model; bands are wider by {:.2}",
+            correlation, colour.sqrt()
         ));
     }
     let large = base.innovations.iter().filter(|e| e.abs() > 5.0).count();
     if large > 0 {
-        notes.push(format!(
-            "{large} torque readings lie more than 5 deviations from what the model expects"
+        notes.push(note!(
+            "{} torque readings lie more than 5 deviations from what the model expects",
+            large
         ));
     }
     if input.shaft.is_none() {
-        notes.push(
-            "no shaft angle was given: the synchronous disturbance is inside the torque".into(),
-        );
+        notes.push(note!(
+            "no shaft angle was given: the synchronous disturbance is inside the torque"
+        ));
     }
 }

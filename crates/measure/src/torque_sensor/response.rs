@@ -18,6 +18,7 @@
 use super::Sensor;
 use super::line::{self, Line};
 use super::swing::{Data, Fit, damping_of};
+use problem::{note, note::Note};
 use statistics::uncertain::Uncertain;
 use std::f64::consts::TAU;
 
@@ -27,7 +28,7 @@ pub struct FreeResponse {
     /// The sensor.
     pub sensor: Sensor,
     /// What is not trustworthy.
-    pub notes: Vec<String>,
+    pub notes: Vec<Note>,
 }
 
 /// A swing fitted to the values from a start on.
@@ -135,7 +136,7 @@ pub fn identify_free_response(
     ) {
         let until = found.start + event;
         if let Ok(shorter) = FittedSwing::of(&reading[..until], interval, found.start) {
-            notes.push(format!(
+            notes.push(note!(
                 "a second tap or step follows {:.3} s after the first: the record from there on is not used",
                 event as f64 * interval
             ));
@@ -144,7 +145,7 @@ pub fn identify_free_response(
     }
     let early = rest.filter(|_| start.is_none());
     if let Some(rest) = early.filter(|&rest| rest as f64 + 3.0 * period < found.start as f64) {
-        notes.push(format!(
+        notes.push(note!(
             "the reading leaves its rest {:.3} s before the swing that is used: more than one tap or step, or a rest that drifts",
             (found.start - rest) as f64 * interval
         ));
@@ -152,7 +153,7 @@ pub fn identify_free_response(
     let raw = &reading[found.start..end];
     let mut clean = raw.to_vec();
     for line in take_lines_out(raw, &mut clean, interval, &mut found)? {
-        notes.push(format!(
+        notes.push(note!(
             "a steady line at {:.2} Hz, {:.1} % of the swing, was taken out: mains, perhaps",
             line.frequency,
             100.0 * line.amplitude() / found.amplitude()
@@ -193,29 +194,35 @@ pub fn identify_free_response(
 }
 
 /// What a swing that was found is too weak for.
-fn weak(found: &FittedSwing, length: f64) -> Vec<String> {
+fn weak(found: &FittedSwing, length: f64) -> Vec<Note> {
     let (frequency, damping) = (found.point[0].exp(), damping_of(found.point[1]));
     let share = 100.0 * found.left() / found.amplitude();
     let mut notes = Vec::new();
     if share > 20.0 {
-        notes.push(format!(
-            "the swing is hardly above what is left, which is {share:.0} % of it"
+        notes.push(note!(
+            "the swing is hardly above what is left, which is {:.0} % of it",
+            share
         ));
     }
     if frequency * length < 3.0 {
-        notes.push(format!(
+        notes.push(note!(
             "the record holds {:.1} periods of the sensor; damping needs more",
             frequency * length
         ));
     }
     if length * TAU * frequency * damping < 1.0 {
-        notes.push("the swing has not died within the record: level and damping are weak".into());
+        notes.push(note!(
+            "the swing has not died within the record: level and damping are weak"
+        ));
     }
     if damping > OVERDAMPED {
-        notes.push(format!("a sensor damped by {damping:.2} hardly swings: frequency and damping cannot be separated well"));
+        notes.push(note!(
+            "a sensor damped by {:.2} hardly swings: frequency and damping cannot be separated well",
+            damping
+        ));
     }
     if found.leaves_more() {
-        notes.push(format!(
+        notes.push(note!(
             "the model leaves {:.1} times the noise: a second mode, or a force that had not ended",
             found.left() / found.noise
         ));

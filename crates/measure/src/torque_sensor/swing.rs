@@ -1,5 +1,6 @@
 //! The fit of a decaying swing about a level.
 
+use problem::{note, note::Note};
 use statistics::linear::solved;
 use statistics::simplex;
 use std::f64::consts::TAU;
@@ -216,7 +217,7 @@ impl Data<'_> {
     }
 
     /// Whether the large swings have another frequency than the small ones.
-    pub(super) fn drift(&self, frequency: f64, damping: f64) -> Option<String> {
+    pub(super) fn drift(&self, frequency: f64, damping: f64) -> Option<Note> {
         let split = (1.0 / (TAU * frequency * damping * self.interval)) as usize;
         let period = 1.0 / (frequency * self.interval);
         if split < 32 || self.values.len() < split + 32 || (split as f64) < 1.5 * period {
@@ -243,10 +244,9 @@ impl Data<'_> {
         let difference = found[0].0 - found[1].0;
         let deviation = (found[0].1 + found[1].1).sqrt();
         (difference.abs() > 4.0 * deviation).then(|| {
-            format!(
+            note!(
                 "large swings have a frequency {:.2} % {} than small ones: the sensor is not linear",
-                100.0 * difference.abs(),
-                if difference > 0.0 { "higher" } else { "lower" }
+                100.0 * difference.abs(), if difference > 0.0 { "higher" } else { "lower" }
             )
         })
     }

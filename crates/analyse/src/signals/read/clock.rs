@@ -2,6 +2,7 @@
 
 use crate::signals::read::timing::Timing;
 use crate::signals::read::{MOST_VALUES, Series, Source, si_factor};
+use problem::note;
 use problem::{Code, Problem, Result};
 use recording::{Channel, Clock, Content};
 
@@ -287,9 +288,9 @@ impl Source<'_> {
             1..=3 => format!("; nothing is known in the gaps {}", told.join(", ")),
             more => format!("; nothing is known in {more} gaps, the first {}", told[0]),
         };
-        self.evened.push(format!(
-            "{}, channel {}: its values come at uneven times, every {interval:.6} s on average; they are brought to equal times on straight lines between neighbours{left}",
-            self.name, series.name
+        self.evened.push(note!(
+            "{}, channel {}: its values come at uneven times, every {:.6} s on average; they are brought to equal times on straight lines between neighbours{}",
+            &self.name, &series.name, interval, left
         ));
         Ok(series)
     }

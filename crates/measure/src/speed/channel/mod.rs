@@ -26,6 +26,7 @@ use super::track::filtered;
 use super::transition::{Memory, Vector};
 use crate::pulse::Refusal;
 use crate::state_space::colour;
+use problem::{note, note::Note};
 use samples::{Rise, Samples};
 use statistics::simplex;
 use std::f64::consts::TAU;
@@ -68,7 +69,7 @@ pub struct Shown {
     /// When a shaft that rests at the end of the record was last seen to turn, s.
     pub stop: Option<f64>,
     /// Why a quick change may be the instrument's rather than the shaft's.
-    pub doubt: Option<String>,
+    pub doubt: Option<Note>,
 }
 
 /// Smallest noise of a mean, as a part of the largest speed. Before the first values nothing is known of the speed up to three tenths
@@ -112,9 +113,9 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
     let backward = channel.values.iter().filter(|v| **v < 0.0).count();
     let sum: f64 = channel.values.iter().filter(|v| v.is_finite()).sum();
     let sign = if sum < 0.0 && 2 * backward > known {
-        notes.push(
-            "the speed is negative nearly throughout: it is counted along the rotation".into(),
-        );
+        notes.push(note!(
+            "the speed is negative nearly throughout: it is counted along the rotation"
+        ));
         -1.0
     } else {
         1.0
@@ -202,7 +203,7 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
         })
         .collect();
     speed.notes.extend(speed.gaps().map(|gap| {
-        format!(
+        note!(
             "no value comes between {:.6} s and {:.6} s: the speeds on both sides are smoothed each by itself",
             gap.from, gap.to
         )
@@ -218,8 +219,9 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
         let length = change.end.map_or(0.0, |end| end.0 - change.engagement.0);
         change.engagement.1 = change.engagement.1.hypot(length);
         speed.notes.push(
-            "the speed changes quickly from the first values on: when the change began is unknown; needed: a record that begins before it".into(),
-        );
+            note!(
+                "the speed changes quickly from the first values on: when the change began is unknown; needed: a record that begins before it"
+            ));
     }
     let doubt = sight.and_then(|sight| {
         let shown = (sight.lock - sight.engage) * data.unit;
@@ -249,9 +251,9 @@ pub fn smooth_channel(channel: &Channel, settings: &SpeedSettings) -> Result<Sho
 }
 
 /// Why a change shown in a time, s, may be the instrument's.
-fn own_rise(shown: f64, bandwidth: Option<f64>) -> Option<String> {
+fn own_rise(shown: f64, bandwidth: Option<f64>) -> Option<Note> {
     match bandwidth {
-        None => Some(format!(
+        None => Some(note!(
             "the speed changes within {:.3} ms and the bandwidth of the instrument is not given: it counts as unlimited, and the change may be the rise of the instrument; one of {:.2} Hz rises as long",
             1e3 * shown,
             OWN_RISE / (TAU * shown)
@@ -259,9 +261,10 @@ fn own_rise(shown: f64, bandwidth: Option<f64>) -> Option<String> {
         Some(bandwidth) => {
             let own = OWN_RISE / (TAU * bandwidth);
             (shown < MOSTLY_ITS_OWN * own).then(|| {
-                format!(
-                    "the speed changes within {:.3} ms, and an instrument of {bandwidth:.6} Hz alone rises in {:.3} ms: the rise is mostly the instrument's, and how the shaft moved meanwhile follows from its stated bandwidth; needed: {:.3} Hz",
+                note!(
+                    "the speed changes within {:.3} ms, and an instrument of {:.6} Hz alone rises in {:.3} ms: the rise is mostly the instrument's, and how the shaft moved meanwhile follows from its stated bandwidth; needed: {:.3} Hz",
                     1e3 * shown,
+                    bandwidth,
                     1e3 * own,
                     2.0 * bandwidth * own * MOSTLY_ITS_OWN / shown
                 )
