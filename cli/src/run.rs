@@ -7,7 +7,7 @@ use crate::{console, summary};
 use auxbear::outcome::Stop;
 use auxbear::outcome::options::Controllers;
 use auxbear::problem::{Code, Problem, Result};
-use auxbear::report::directory::{NewDirectory, path_of_run};
+use auxbear::report::directory::{NewDirectory, besides, has_members, path_of_run};
 use auxbear::run::Options;
 use auxbear::scenario::{BuiltIn, Scenario};
 use std::num::NonZeroUsize;
@@ -77,12 +77,16 @@ pub fn execute(
     drop(busy);
     let directory =
         NewDirectory::of_run(path, scenario, machine.members()).inspect_err(|_| progress.end())?;
-    match directory.there() {
-        0 => {}
-        there => console::report(&format!(
-            "goes on: {there} of {} members are there",
+    let there = directory.there;
+    if there > 0 {
+        let besides = match besides(directory.partial()) {
+            names if names.is_empty() => String::new(),
+            names => format!("; left as it is, of the run before: {}", names.join(", ")),
+        };
+        console::report(&format!(
+            "goes on: {there} of {} members are there{besides}",
             machine.members()
-        )),
+        ));
     }
     if let Ok(mut partial) = PARTIAL.lock() {
         *partial = Some(directory.partial().to_path_buf());
@@ -136,7 +140,7 @@ pub fn listen(keeps: bool) {
         match partial.as_ref() {
             Some(partial) if again => {
                 // members of a repetition stay: the next call goes on from them
-                if !NewDirectory::has_members(partial) {
+                if !has_members(partial) {
                     let _ = fs::remove_dir_all(partial);
                 }
             }

@@ -124,6 +124,19 @@ fn a_repetition_goes_on_after_kill_and_interrupt_but_for_another() {
     let straight = call(&["--out", "straight"]).output().unwrap();
     assert!(straight.status.success());
     assert!(numbers(&place, "runs/drop") == numbers(&place, "straight"));
+    // ended before the first member has, the same call goes on as well
+    let early = ["--out", "early"];
+    let child = call(&early).spawn().unwrap();
+    while !place.path("early.partial/members").exists() {
+        sleep(Duration::from_millis(1));
+    }
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.unwrap().success());
+    child.wait_with_output().unwrap();
+    Called::of(call(&early).output().unwrap()).done();
+    assert!(numbers(&place, "early") == numbers(&place, "straight"));
     // a whole one stays as it is
     let again = Called::of(call(&["--out", "straight"]).output().unwrap());
     assert!(

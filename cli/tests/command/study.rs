@@ -9,7 +9,7 @@ use std::time::Duration;
 /// A study of 130 members, in three parts, each until past the first contact.
 const STUDY: &str = r#"format = "auxbear.study/1"
 scenario = "drop.toml"
-set = ["run.duration=8 ms", "run.accuracy=screening"]
+set = ["run.duration=20 ms", "run.accuracy=screening"]
 seed = 3
 
 [design]
@@ -139,7 +139,7 @@ fn what_a_study_refuses() {
         "seed = 4",
         &["AB2203", "`seed = 3`", "`seed = 4`"],
     );
-    refused("8 ms", "9 ms", &["AB2203", "scenario.toml", "duration"]);
+    refused("20 ms", "21 ms", &["AB2203", "scenario.toml", "duration"]);
     // words are no other study
     fs::write(
         place.path("study.toml"),
@@ -451,7 +451,7 @@ fn what_is_no_selection_is_refused() {
 #[test]
 fn a_link_to_a_study_is_that_study() {
     let study = STUDY.replace("members = 130", "members = 3");
-    let place = place(&study.replace("duration=8 ms", "duration=100 ms"));
+    let place = place(&study.replace("duration=20 ms", "duration=100 ms"));
     place.call(&["study", "study.toml", "--out", "own"]).done();
     std::os::unix::fs::symlink(place.path("own"), place.path("link")).unwrap();
     let called = place.call(&["study", "study.toml", "--out", "link"]).done();

@@ -13,7 +13,7 @@ use tempfile::TempDir;
 
 const STUDY: &str = r#"format = "auxbear.study/1"
 scenario = "drop.toml"
-set = ["run.duration=8 ms", "run.accuracy=screening"]
+set = ["run.duration=20 ms", "run.accuracy=screening"]
 seed = 3
 [design]
 kind = "monte carlo"
@@ -132,7 +132,7 @@ fn what_had_ended_when_a_study_is_interrupted_is_kept() {
 #[test]
 fn parts_computed_elsewhere_are_those_computed_here() {
     // what no member of a part has, such as an impact force before the first contact, is in none of its columns
-    let folder = folder(&STUDY.replace("run.duration=8 ms", "run.duration=6 ms"));
+    let folder = folder(&STUDY.replace("run.duration=20 ms", "run.duration=6 ms"));
     let path = folder.path();
     whole(path, "here");
     let away = directory(path, "away");
@@ -170,7 +170,7 @@ fn members_with_a_warning_break_its_limit() {
         "warning = \"AB1126\"\n[[limit]]\nwarning = \"AB2300\"\n[[limit]]\nseverity = \"destroys\"";
     let text = STUDY
         .replace(first, limits)
-        .replace("duration=8 ms", "duration=100 ms");
+        .replace("duration=20 ms", "duration=100 ms");
     let folder = folder(&text.replace("members = 130", "members = 4"));
     let done = whole(folder.path(), "out");
     let limits = done.answer.limits.iter();
@@ -235,8 +235,8 @@ fn damaged_and_foreign_parts_are_found() {
 fn a_sweep_of_an_inclined_shaft_has_no_verdict() {
     let text = STUDY
         .replace(
-            "run.duration=8 ms",
-            "run.duration=8 ms\", \"gravity.acceleration=9 m/s^2",
+            "run.duration=20 ms",
+            "run.duration=20 ms\", \"gravity.acceleration=9 m/s^2",
         )
         .replace("members = 130", "members = 4");
     let text = text.replace("most = \"1 N\"", "most = \"1 MN\"");

@@ -36,6 +36,7 @@ mod qualification;
 mod qualify;
 mod races;
 mod reference_scenario;
+mod repetition;
 mod rig_to_verdict;
 mod rolling;
 mod rotor_friction;

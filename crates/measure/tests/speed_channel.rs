@@ -66,7 +66,7 @@ fn seeds() -> u64 {
     std::env::var("AUXBEAR_SEEDS")
         .ok()
         .and_then(|seeds| seeds.parse().ok())
-        .unwrap_or(20)
+        .unwrap_or(14)
 }
 
 #[derive(Default)]

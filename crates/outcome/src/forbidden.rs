@@ -4,9 +4,9 @@ use crate::limits::{UNFINISHED, is_of};
 use crate::{Judged, Outcome, Quantity, Scope, Value, Verdict, Warning};
 use problem::warning::{Declared, Evaluation};
 use problem::{Code, Result, did_you_mean};
-use scenario::{Forbidden, Limit, Scenario};
+use scenario::{Forbidden, Limit, Scenario, UNBALANCE_ANGLE};
 
-/// Refuses a code that no warning has.
+/// Refuses a code that no warning of such a run has.
 pub(super) fn check(
     limit: &Limit,
     forbids: &Forbidden,
@@ -18,7 +18,7 @@ pub(super) fn check(
     if declared.iter().any(|kind| kind.code == code) {
         return Ok(());
     }
-    let found = format!("\"{code}\", which is no warning");
+    let found = format!("\"{code}\", which is no warning of such a run");
     let allowed = "the code of a warning is needed, e.g. AB2030".to_string();
     let problem = limit.problem(Code::UnknownQuantity, found, allowed);
     let hint = did_you_mean(code, declared.iter().map(|kind| kind.code));
@@ -118,12 +118,14 @@ pub(super) fn values(
     forbids: &Forbidden,
 ) -> (Vec<Option<f64>>, String) {
     let all = outcome.work.members.max(1);
+    // of the unbalance angle nothing that follows from the file depends
+    let differ = (scenario.vary.iter()).any(|vary| vary.path != UNBALANCE_ANGLE);
     let in_coast_down = (scenario.drop()).is_some_and(|drop| drop.coast_down.is_some());
     let mut kinds = declared.iter();
     let unseen = kinds.find(|kind| {
         forbids.meets(kind.code, kind.severity)
             && match kind.evaluation {
-                Evaluation::File => !scenario.vary.is_empty(),
+                Evaluation::File => differ,
                 Evaluation::Each => false,
                 Evaluation::Unperturbed => true,
                 Evaluation::CoastDown => in_coast_down,
@@ -134,7 +136,7 @@ pub(super) fn values(
     for warning in forbidden(forbids, outcome) {
         let (certain, possible) = match warning.scope {
             Scope::Each { count, .. } => (count, count),
-            Scope::Alike if scenario.vary.is_empty() => (all, all),
+            Scope::Alike if !differ => (all, all),
             Scope::Alike | Scope::Unperturbed => (1, all),
         };
         (least, most) = (least.max(certain), most + possible);

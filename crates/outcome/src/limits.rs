@@ -250,7 +250,8 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
         open.find(|(code, _)| warned(outcome, code, &quantity.name))
     };
     // what has not come may come later
-    let whole = outcome.stop.complete() && open(false).is_none();
+    let cut = open(false).filter(|_| outcome.stop.complete());
+    let whole = outcome.stop.complete() && cut.is_none();
     let idle = || {
         contacts_of(&quantity.name)
             .is_some_and(|names| names.map(|name| outcome.number(&name).unwrap_or(0.0)) == [0.0; 2])
@@ -266,7 +267,10 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
         (Value::None { why }, _) => match (beyond(outcome.stop.time), quantity.awaited) {
             (Some(late), _) => (vec![Some(late)], format!("{why}, which is past the bound")),
             (None, true) => (vec![None], format!("{why}, which is not past the bound")),
-            (None, false) => (vec![None], why.clone()),
+            (None, false) => {
+                let cut = cut.map(|(_, why)| why);
+                (vec![None], cut.unwrap_or_else(|| why.clone()))
+            }
         },
         // what is broken when a run stops stays so
         (Value::Number(value), false)

@@ -45,7 +45,7 @@ fn no_change_of_the_structure_passes_for_other_content() {
             "EAIB", "EASB", "EADB",
         ] {
             // Every piece is longer than 24 bytes; more of a kind show nothing new.
-            for &at in places(&whole, kind.as_bytes()).iter().take(4) {
+            for &at in places(&whole, kind.as_bytes()).iter().take(2) {
                 for inside in 0..24 {
                     let mut changed = whole.clone();
                     changed[at + inside] ^= 1 << (inside % 8);

@@ -11,8 +11,8 @@ use super::figures::with_figures;
 use super::members::{self, Kept, MEMBERS};
 use super::page::{self, PageColumn, PageRun};
 use super::picture;
-pub use super::place::{RUNS, free_path, free_path_in, path_of_run};
-use super::place::{has_members_of, was_interrupted};
+use super::place::{FILES, has_members_of, hashes, of_another, was_interrupted};
+pub use super::place::{RUNS, besides, free_path, free_path_in, has_members, path_of_run};
 use super::{history, summary};
 use outcome::{Attached, Stop};
 use problem::open_file;
@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 
 pub(super) const SCENARIO: &str = "scenario.toml";
 pub(super) const SUMMARY: &str = "summary.json";
-const HISTORY: &str = "history.parquet";
+pub(super) const HISTORY: &str = "history.parquet";
 pub(super) const REPORT: &str = "report.html";
 /// What the folder of an export begins with.
 pub(super) const FIRST_TABLE: &str = "run.csv";
@@ -49,6 +49,8 @@ pub struct NewDirectory {
     lock: Option<File>,
     /// Where a repetition keeps its members.
     kept: Option<Kept>,
+    /// Members that an earlier run of the same scenario has left here.
+    pub there: usize,
 }
 
 impl NewDirectory {
@@ -72,7 +74,14 @@ impl NewDirectory {
         }
         let mut own = NewDirectory::reserved(path, |partial| has_members_of(partial, &resolved))?;
         own.file(SCENARIO, |file| file.write_all(resolved.as_bytes()))?;
-        own.kept = Some(Kept::of(&own.partial, members));
+        fs::create_dir_all(own.partial.join(MEMBERS)).map_err(|error| misplaced(path, &error))?;
+        let hashes = hashes(&resolved);
+        if !hashes.is_empty() {
+            let place = own.partial.join(MEMBERS).join(FILES);
+            aside(&place, |mut file| file.write_all(hashes.as_bytes()))?;
+        }
+        let (kept, there) = Kept::of(&own.partial, members)?;
+        (own.kept, own.there) = (Some(kept), there);
         Ok(own)
     }
 
@@ -103,6 +112,10 @@ impl NewDirectory {
             Err(error) if error.kind() == ErrorKind::AlreadyExists => {
                 let left = locked(&partial).map_err(|_| in_use())?;
                 if !stays(&partial) {
+                    if has_members(&partial) {
+                        return Err(of_another(&partial));
+                    }
+                    let _ = fs::remove_dir(partial.join(MEMBERS));
                     empty_leftover(&partial).map_err(|_| in_use())?;
                 }
                 Some(left)
@@ -114,6 +127,7 @@ impl NewDirectory {
             partial,
             lock,
             kept: None,
+            there: 0,
         })
     }
 
@@ -123,16 +137,6 @@ impl NewDirectory {
             Some(kept) => kept,
             None => &Nowhere,
         }
-    }
-
-    /// Whether a directory has members of a repetition.
-    pub fn has_members(path: &Path) -> bool {
-        path.join(MEMBERS).is_dir()
-    }
-
-    /// Members that an earlier run of the same scenario has left here.
-    pub fn there(&self) -> usize {
-        self.kept.as_ref().map_or(0, Kept::there)
     }
 
     /// The directory as it is called until it is finished.
@@ -157,7 +161,14 @@ impl NewDirectory {
                 // one that says that all is there would be worse than none
                 let _ = fs::remove_file(name);
             }
-            let told = self.kept();
+            // a repetition goes on from its members
+            let told = match has_members(&self.partial) {
+                true => Some(format!(
+                    "Its members are kept in {}: the same call goes on from them",
+                    self.partial.display()
+                )),
+                false => self.kept(),
+            };
             problem.with_hint(told)
         })
     }
@@ -271,7 +282,7 @@ impl NewDirectory {
 impl Drop for NewDirectory {
     /// After a rename there is nothing left of this name to remove, or what is there is another run's.
     fn drop(&mut self) {
-        if !NewDirectory::has_members(&self.partial)
+        if !has_members(&self.partial)
             && (self.lock.as_ref()).is_none_or(|lock| is_at(lock, &self.partial))
         {
             let _ = fs::remove_dir_all(&self.partial);

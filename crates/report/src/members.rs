@@ -152,21 +152,20 @@ struct Stored<M> {
 }
 
 impl Kept {
-    /// Those of a directory, of so many in all.
-    pub(super) fn of(directory: &Path, count: usize) -> Kept {
-        Kept {
+    /// Those of a directory, of so many in all, and how many are there.
+    ///
+    /// # Errors
+    /// A part that cannot be read.
+    pub(super) fn of(directory: &Path, count: usize) -> Result<(Kept, usize)> {
+        let own = Kept {
             directory: directory.to_path_buf(),
             count,
             problem: Mutex::new(None),
-        }
-    }
-
-    /// How many are there.
-    pub(super) fn there(&self) -> usize {
-        let parts = 0..parts::count(self.count);
-        parts
-            .map(|part| self.part(part).map_or(0, |own| own.table.len()))
-            .sum()
+        };
+        let parts = (0..parts::count(count)).map(|part| own.part(part));
+        let counts = parts.map(|part| Ok(part?.map_or(0, |own| own.table.len())));
+        let there = counts.sum::<Result<usize>>()?;
+        Ok((own, there))
     }
 
     /// What could not be written.
@@ -177,29 +176,35 @@ impl Kept {
             .clone()
     }
 
-    /// A part as this version wrote it.
-    fn part(&self, part: usize) -> Option<Members> {
+    /// A part as this version wrote it for a repetition; none where there is no such.
+    fn part(&self, part: usize) -> Result<Option<Members>> {
         let place = path(&self.directory, part);
-        let table = read(&place, &[], &parts::members(part, self.count)).ok()?;
+        if !place.exists() {
+            return Ok(None);
+        }
+        let table = read(&place, &[], &parts::members(part, self.count))?;
+        let Some(text) = said(&place, REPETITION)? else {
+            return Ok(None);
+        };
         let stored: Stored<Members> =
-            serde_json::from_str(&said(&place, REPETITION).ok()??).ok()?;
+            serde_json::from_str(&text).map_err(|error| damaged(&place, error.to_string()))?;
         let mut members = stored.members;
         members.table = table;
-        (stored.version == env!("CARGO_PKG_VERSION")).then_some(members)
+        Ok((stored.version == env!("CARGO_PKG_VERSION")).then_some(members))
     }
 
     fn written(&self, part: usize, fresh: &Members) -> Result<()> {
-        let mut whole = self.part(part).unwrap_or_default();
+        let mut whole = self.part(part)?.unwrap_or_default();
         whole.append(fresh.clone());
         let place = path(&self.directory, part);
-        let unwritten = |error| failed(&place, &error);
+        let unwritten = |error: &std::io::Error| failed(&place, error);
         let stored = Stored {
             version: env!("CARGO_PKG_VERSION").to_string(),
             members: &whole,
         };
-        let stored = serde_json::to_string(&stored).map_err(|error| unwritten(error.into()))?;
+        let stored = serde_json::to_string(&stored).map_err(|error| unwritten(&error.into()))?;
         let beside = vec![KeyValue::new(REPETITION.to_string(), stored)];
-        fs::create_dir_all(self.directory.join(MEMBERS)).map_err(unwritten)?;
+        fs::create_dir_all(self.directory.join(MEMBERS)).map_err(|error| unwritten(&error))?;
         aside(&place, |file| {
             write_with(file, &whole.table.sorted(), beside).map_err(io_error)
         })
@@ -208,7 +213,8 @@ impl Kept {
 
 impl Store for Kept {
     fn there(&self, part: usize) -> Members {
-        self.part(part).unwrap_or_default()
+        // what cannot be read was refused before the run
+        self.part(part).ok().flatten().unwrap_or_default()
     }
 
     fn keep(&self, part: usize, fresh: &Members) {

@@ -1,9 +1,13 @@
 //! Where the directory of a run stands where nobody says, and what an earlier run has left there.
 
-use super::directory::{NewDirectory, SCENARIO, SUMMARY, exists, locked, partial_of};
+use super::directory::{HISTORY, REPORT, SCENARIO, SUMMARY, exists, locked, partial_of};
+use super::members::MEMBERS;
+use problem::{Code, Problem, open_file};
 use scenario::Scenario;
-use std::fs;
+use sha2::{Digest, Sha256};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 /// The directory that a run gets where none is asked for: `runs/NAME`, or `runs/NAME-2` and so on where that is taken.
 pub fn free_path(name: &str) -> PathBuf {
@@ -43,10 +47,69 @@ fn is_free(path: &Path) -> bool {
     !exists(path) && !partial_of(path).is_some_and(|path| exists(&path))
 }
 
-/// Whether a directory has members of a run of this scenario.
+/// Whether a directory has members of a repetition.
+pub fn has_members(path: &Path) -> bool {
+    let entries = fs::read_dir(path.join(MEMBERS)).into_iter().flatten();
+    let mut names = entries.flatten().map(|entry| entry.file_name());
+    names.any(|name| name.to_string_lossy().ends_with(".parquet"))
+}
+
+/// Whether a directory is one of a repetition of this scenario, whose files have not changed.
 pub(super) fn has_members_of(path: &Path, resolved: &str) -> bool {
-    NewDirectory::has_members(path)
+    let members = path.join(MEMBERS);
+    let known = || fs::read_to_string(members.join(FILES)).unwrap_or_default();
+    members.is_dir()
         && fs::read_to_string(path.join(SCENARIO)).is_ok_and(|there| there == resolved)
+        && known() == hashes(resolved)
+}
+
+/// Members of something else stand where a repetition is to begin.
+pub(super) fn of_another(partial: &Path) -> Box<Problem> {
+    let found = "members of another run, which was killed or interrupted: of other values, or of other contents of a file that it reads";
+    let needed =
+        "the same file and values go on from them; choose another --out, or remove this one";
+    Problem::at_path(Code::OutputExists, partial, found, needed)
+}
+
+/// Hashes of the files that members depend on, beside them.
+pub(super) const FILES: &str = "files.sha256";
+
+/// Hashes of the files that a resolved text names, as `sha256sum` writes them; nothing where it names none.
+pub(super) fn hashes(resolved: &str) -> String {
+    fn named(value: &toml::Value, all: &mut BTreeSet<PathBuf>) {
+        match value {
+            toml::Value::String(text) => {
+                let path = Path::new(text);
+                if path.is_absolute() && path.is_file() {
+                    all.insert(path.to_path_buf());
+                }
+            }
+            toml::Value::Array(list) => list.iter().for_each(|own| named(own, all)),
+            toml::Value::Table(table) => table.values().for_each(|own| named(own, all)),
+            _ => {}
+        }
+    }
+    let mut all = BTreeSet::new();
+    if let Ok(table) = toml::from_str(resolved) {
+        named(&toml::Value::Table(table), &mut all);
+    }
+    let line = |path: PathBuf| {
+        let mut hash = Sha256::new();
+        let read = open_file(&path).and_then(|mut file| io::copy(&mut file, &mut hash));
+        let hash = read.map_or(String::new(), |_| format!("{:x}", hash.finalize()));
+        format!("{hash}  {}\n", path.display())
+    };
+    all.into_iter().map(line).collect()
+}
+
+/// What stands in a run directory that the run of before did not write, such as its exports: they stay as they are.
+pub fn besides(directory: &Path) -> Vec<String> {
+    let own = [SCENARIO, SUMMARY, HISTORY, REPORT, MEMBERS];
+    let entries = fs::read_dir(directory).into_iter().flatten().flatten();
+    let names = entries.map(|entry| entry.file_name().to_string_lossy().into_owned());
+    let mut names: Vec<String> = names.filter(|name| !own.contains(&&**name)).collect();
+    names.sort();
+    names
 }
 
 /// Whether a run directory is that of a repetition of this scenario which the user ended.

@@ -67,8 +67,7 @@ pub fn build(scenario: &Scenario) -> Result<Machine<'_>> {
         .into();
     let limits = scenario.limits_here();
     if !limits.is_empty() {
-        let declared: Vec<_> = warnings::of_runs().collect();
-        limits::check(&limits, &machine.results(), &declared).map_err(here)?;
+        limits::check(&limits, &machine.results(), &warnings::of(scenario)).map_err(here)?;
     }
     Ok(machine)
 }
@@ -154,8 +153,7 @@ impl Machine<'_> {
         measured::add(&self.measured, &mut outcome);
         outcome.work.members = outcome.work.members.max(1);
         outcome.warnings = known::joined(self.warnings().into_iter(), outcome.warnings);
-        let declared: Vec<_> = warnings::of_runs().collect();
-        outcome.limits = limits::of(self.scenario, &outcome, &declared);
+        outcome.limits = limits::of(self.scenario, &outcome, &warnings::of(self.scenario));
         measured::warnings::reserve(&mut outcome.limits, &outcome.warnings);
         outcome
     }

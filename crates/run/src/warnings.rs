@@ -9,8 +9,8 @@ use analyse::stiffness::warnings::StiffnessWarning;
 use analyse::torque::warnings::TorqueWarning;
 use outcome::Severity;
 use problem::warning::Declared;
-use scenario::LubricantWarning;
 use scenario::notes::ValueWarning;
+use scenario::{Body, LubricantWarning, Scenario};
 use simulate::assumptions::{ASSUMED, AssumptionWarning};
 use simulate::bearing::warning_table::{BearingWarning, HeatWarning, SpatialWarning};
 use simulate::coast_down::warnings::CoastDownWarning;
@@ -25,7 +25,7 @@ pub fn declared() -> impl Iterator<Item = &'static Declared> {
     of_runs().chain(StiffnessWarning::DECLARED)
 }
 
-/// Those that a run of a scenario may give.
+/// Those that a run may give.
 pub fn of_runs() -> impl Iterator<Item = &'static Declared> {
     let homes = [
         ValueWarning::DECLARED,
@@ -49,6 +49,26 @@ pub fn of_runs() -> impl Iterator<Item = &'static Declared> {
         MeasuredWarning::DECLARED,
     ];
     homes.into_iter().flatten()
+}
+
+/// Those that a run of this scenario may give.
+pub fn of(scenario: &Scenario) -> Vec<&'static Declared> {
+    let of_others = [
+        SpinUpWarning::DECLARED,
+        RigWarning::DECLARED,
+        SignalsWarning::DECLARED,
+        IdentifyWarning::DECLARED,
+        MountWarning::DECLARED,
+        TorqueWarning::DECLARED,
+    ];
+    let of_shafts = [LevitationWarning::DECLARED, RotorWarning::DECLARED];
+    let (others, shafts) = match scenario.drop().map(|drop| &drop.body) {
+        None => (&[][..], &[][..]),
+        Some(Body::Flexible(_)) => (&of_others[..], &[][..]),
+        Some(Body::Rigid(_)) => (&of_others[..], &of_shafts[..]),
+    };
+    let foreign = |kind: &Declared| others.iter().chain(shafts).any(|home| home.contains(kind));
+    of_runs().filter(|kind| !foreign(kind)).collect()
 }
 
 /// How severe a warning of a code is, and whether it says no more than what was assumed; a code that this version does not know is

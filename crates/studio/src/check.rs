@@ -5,7 +5,7 @@ use auxbear::outcome::Picture;
 use auxbear::outcome::list::List;
 use auxbear::outcome::{Quantity, Value as ResultValue};
 use auxbear::report::{directory, page};
-use auxbear::scenario::{Body, Resolved, ResolvedValue, StudyFile, System, rotor::FlexibleRotor};
+use auxbear::scenario::{Body, Resolved, ResolvedValue, StudyFile, rotor::FlexibleRotor};
 use auxbear::simulate::drawing;
 use auxbear::simulate::rotor::RotorModel;
 use auxbear::{BuiltIn, Outcome, Place, Problem, Scenario};
@@ -77,9 +77,9 @@ fn of_values(resolved: &Resolved) -> Value {
 
 /// A rotor to scale, as the scripts of a run's page read it; none of what has no shaft, or one that cannot be put together.
 fn drawing_of(scenario: &Scenario) -> Option<String> {
-    let (rotor, places): (&FlexibleRotor, Vec<(f64, &str)>) = match &scenario.system {
-        System::Rotor(analysis) => (&analysis.rotor, Vec::new()),
-        System::Drop(drop) => match &drop.body {
+    let (rotor, places): (&FlexibleRotor, Vec<(f64, &str)>) = match scenario.drop() {
+        None => (&scenario.rotor()?.rotor, Vec::new()),
+        Some(drop) => match &drop.body {
             Body::Flexible(shaft) => {
                 let at = |place: usize| shaft.rotor.nodes.get(place).map(|node| node.at);
                 let own = drop.auxiliary_bearings.iter().zip(&shaft.places);
@@ -89,7 +89,6 @@ fn drawing_of(scenario: &Scenario) -> Option<String> {
             }
             Body::Rigid(_) => return None,
         },
-        _ => return None,
     };
     let speed = scenario
         .resolved

@@ -4,7 +4,6 @@ use crate::folder::{Folder, changed, stamp};
 use crate::jobs::run_name;
 use auxbear::report::directory::{page_run, read};
 use auxbear::report::page;
-use auxbear::scenario::SystemName;
 use auxbear::study::Study;
 use auxbear::{BuiltIn, Scenario, StudyFile};
 use indexmap::IndexMap;
@@ -204,7 +203,7 @@ fn first_apart(name: &str, then: &[String], now: &[String]) -> Option<[String; 3
 /// What the file of a scenario gives now, as the summary of a run of a system says it: the analysis of a machine's rotor is one of its own.
 fn given(path: &Path, system: &str) -> Option<Now> {
     let mut scenario = Scenario::read(path, &[], &BuiltIn).ok()?;
-    if system == SystemName::Rotor.word()
+    if system != scenario.system.name().word()
         && let Some(alone) = scenario.rotor_alone()
     {
         scenario = alone.ok()?;

@@ -204,6 +204,45 @@ fn members_with_a_warning_count_where_it_is_evaluated() {
 }
 
 #[test]
+fn the_first_impact_is_decided_once_it_is_over() {
+    let text = limited("quantity = \"first_impact_force\"\nmost = \"5 kN\"");
+    // in the fall, in the first blow, after it
+    for (duration, verdict, code) in [
+        ("6 ms", Verdict::Undecided, "AB2424"),
+        ("7.2 ms", Verdict::Undecided, "AB2423"),
+        ("20 ms", Verdict::Pass, ""),
+    ] {
+        let set = format!("run.duration={duration}");
+        for sets in [vec![&*set], vec![&*set, "repeat.count=2"]] {
+            let found = &judged(&text, &sets)[0];
+            assert_eq!(found.verdict, verdict, "{sets:?}: {}", found.why);
+            assert!(sets.len() > 1 || found.why.contains(code), "{}", found.why);
+        }
+    }
+    let broken = text.replace("5 kN", "10 N");
+    let found = &judged(&broken, &["run.duration=7.2 ms"])[0];
+    assert_eq!(found.verdict, Verdict::Fail, "{}", found.why);
+}
+
+#[test]
+fn a_warning_that_a_rigid_drop_never_gives_is_no_limit_of_it() {
+    for code in ["AB2044", "AB1043", "AB1052"] {
+        let scenario = read(&limited(&format!("warning = \"{code}\"")), &[]).unwrap();
+        let refused = build(&scenario).err().map(|problem| problem.to_string());
+        assert!(refused.is_some_and(|text| text.contains(code)), "{code}");
+    }
+    // and is missed in none of its members
+    let severe = limited("severity = \"destroys\"");
+    let sets = [
+        "run.duration=150 ms",
+        "repeat.count=8",
+        "contact.width=10 mm",
+    ];
+    let found = &judged(&severe, &sets)[0];
+    assert_eq!(found.verdict, Verdict::Pass, "{}", found.why);
+}
+
+#[test]
 fn limits_of_warnings_are_written_back_and_refused_with_near_names() {
     let lines = "severity = \"invalid\"\nshare = 0.9\n\n[[limit]]\nwarning = \"AB2030\"";
     let scenario = read(&limited(lines), &[]).unwrap();

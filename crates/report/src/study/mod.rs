@@ -20,6 +20,7 @@ pub use ranking::verdict as chosen;
 
 use super::directory::{REPORT, SCENARIO, SUMMARY, aside, exists, locked, misplaced};
 use super::members::{self, MEMBERS};
+use super::place::{FILES, hashes};
 use outcome::host;
 use problem::{Code, Problem, Result};
 use run::Options;
@@ -107,8 +108,21 @@ impl Directory {
             file,
             known: quantities,
         } = study;
+        let files = path.join(MEMBERS).join(FILES);
+        let hashes = hashes(&file.scenario.resolved.toml());
         let (file, changed) = if known.is_file() {
             let (before, reworded) = resumed(path, file)?;
+            // that of an earlier version has none
+            let there = fs::read_to_string(&files).unwrap_or_else(|_| hashes.clone());
+            if there != hashes {
+                let other = hashes.lines().find(|line| !there.contains(line));
+                let other = other.map_or(files.display().to_string(), |line| {
+                    line.split_whitespace().skip(1).collect()
+                });
+                let found = format!("other members: since the first of them {other} has changed");
+                let allowed = "a study goes on with the same contents of its files; another one needs another --out";
+                return Err(Problem::at_path(Code::StudyChanged, &known, found, allowed));
+            }
             match add {
                 0 => (before, reworded),
                 more => (before.extended(more)?, true),
@@ -128,6 +142,9 @@ impl Directory {
             let scenario = study.file.scenario.resolved.toml();
             text_file(&path.join(SCENARIO), &scenario)?;
             text_file(&known, &headed(&study.file))?;
+            if !hashes.is_empty() {
+                text_file(&files, &hashes)?;
+            }
         }
         let places = (0..part_count(&study)).map(|part| members::path(path, part));
         let counts = (places.filter(|part| part.exists())).map(|part| members::count(&part));
@@ -168,7 +185,9 @@ impl Directory {
             lacking.extend(members_of(&self.study, part).filter(|own| !there.contains(own)));
         }
         let (mut done, mut since) = (self.there, 0.0);
-        parts::in_turns(&lacking, options, |some| {
+        let drop = self.study.file.scenario.drop();
+        let coasts = drop.is_some_and(|drop| drop.coast_down.is_some());
+        parts::in_turns(&lacking, options, coasts, |some| {
             let plan = Options {
                 progress: &|fraction| progress(done as f64 + fraction * some.len() as f64),
                 ..*options

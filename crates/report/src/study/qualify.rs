@@ -149,7 +149,7 @@ impl Directory {
         }
         let missing: Vec<usize> = (0..all).filter(|row| !kept.members.contains(row)).collect();
         let told = |done: f64| (wish.progress)("runs with other inputs", done, all);
-        parts::in_turns(&missing, options, |some| {
+        parts::in_turns(&missing, options, false, |some| {
             let done = kept.members.len() as f64;
             told(done);
             let plan = Options {

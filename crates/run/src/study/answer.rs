@@ -4,7 +4,7 @@ use super::Study;
 use super::estimate::{Estimate, MISFIT};
 use super::selection::Candidate;
 use super::table::Table;
-use outcome::limits;
+use outcome::limits::{self, UNFINISHED};
 use outcome::{Judged, Spread, Value, Verdict};
 use scenario::{Limit, UNBALANCE_ANGLE};
 use statistics::design::Design;
@@ -108,6 +108,7 @@ impl Study {
             Design::Selection(..) => &[],
             _ => self.file.limits.as_slice(),
         };
+        let why = lacking(table);
         let no_machine = limits::of_no_machine(|code| table.warns(code));
         let limits = judged.iter().map(|limit| {
             let unit = named.clone().find(|known| known.name == limit.quantity);
@@ -122,9 +123,9 @@ impl Study {
                 Design::Widened(..) => {
                     let members = own.iter().map(|at| table.members[*at]);
                     let weights = members.map(|k| design.weight(self.file.seed, k));
-                    rare(limit, unit, &values, &weights.collect::<Vec<_>>())
+                    rare(limit, unit, &values, &why, &weights.collect::<Vec<_>>())
                 }
-                _ => limit_of(limit, unit, &values, is_sample),
+                _ => limit_of(limit, unit, &values, &why, is_sample),
             };
             if own.is_empty() && !some.is_empty() {
                 found.judged.verdict = Verdict::Undecided;
@@ -165,7 +166,7 @@ impl Study {
     /// A verdict over some rows; of a limit of whirl by the unbalance angles that members try, and whether races that were touched come to
     /// their speed.
     pub(super) fn whirl_sought(&self, judged: Judged, table: &Table, rows: &[usize]) -> Judged {
-        let declared: Vec<_> = crate::warnings::of_runs().collect();
+        let declared = crate::warnings::of(&self.file.scenario);
         if !limits::seeks_whirl(&judged.limit, &self.known, &declared) {
             return judged;
         }
@@ -218,8 +219,14 @@ impl Study {
 }
 
 /// A limit judged by members that were drawn from wider distributions: each that breaks it counts for its weight.
-fn rare(limit: &Limit, unit: &'static str, values: &[Option<f64>], weights: &[f64]) -> StudyLimit {
-    let mut judged = limits::judge(limit, unit, values, LACKING);
+fn rare(
+    limit: &Limit,
+    unit: &'static str,
+    values: &[Option<f64>],
+    why: &str,
+    weights: &[f64],
+) -> StudyLimit {
+    let mut judged = limits::judge(limit, unit, values, why);
     let breaks = |value: &f64| !limit.side.holds(*value, limit.bound);
     let shown: Vec<f64> = (values.iter().zip(weights))
         .map(|(value, weight)| match value.filter(breaks) {
@@ -236,7 +243,7 @@ fn rare(limit: &Limit, unit: &'static str, values: &[Option<f64>], weights: &[f6
     (judged.verdict, judged.why) = match beyond {
         None if open > 0 => (
             Verdict::Undecided,
-            format!("{open} members have no value: {LACKING}"),
+            format!("{open} members have no value: {why}"),
         ),
         None => (
             Verdict::Undecided,
@@ -263,17 +270,24 @@ fn rare(limit: &Limit, unit: &'static str, values: &[Option<f64>], weights: &[f6
     StudyLimit { judged, beyond }
 }
 
-/// Why a member has no value.
-const LACKING: &str = "they failed, have no such result, or still grow when they end (AB2423)";
+/// Why members of a table have no value.
+fn lacking(table: &Table) -> String {
+    let early = UNFINISHED.iter().filter(|(code, _)| table.warns(code));
+    let early: String = early
+        .map(|(code, why)| format!(", or {why} ({code})"))
+        .collect();
+    format!("they failed or have no such result{early}")
+}
 
 /// A limit judged: by the bounds of a share where members are a sample, else by counting.
 fn limit_of(
     limit: &Limit,
     unit: &'static str,
     values: &[Option<f64>],
+    why: &str,
     is_sample: bool,
 ) -> StudyLimit {
-    let mut judged = limits::judge(limit, unit, values, LACKING);
+    let mut judged = limits::judge(limit, unit, values, why);
     let known = values.iter().flatten().count();
     if values.is_empty() {
         judged.why = "no member has run yet".to_string();

@@ -67,7 +67,7 @@ impl Study {
     pub fn limited(&self, table: &Table, limit: &Limit) -> Vec<Option<f64>> {
         match &limit.forbids {
             Some(forbids) => {
-                let declared: Vec<_> = crate::warnings::of_runs().collect();
+                let declared = crate::warnings::of(&self.file.scenario);
                 // before the runs nothing has a value but what its keys leave out
                 let mut known = self.known.clone();
                 for own in &mut known {

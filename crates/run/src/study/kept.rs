@@ -3,7 +3,7 @@
 use super::table::Table;
 use outcome::joined::Joined;
 use outcome::{Outcome, Quantity, Value, Work};
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 use simulate::bearing::LIFE_BY_POINT;
 use std::collections::BTreeMap;
 
@@ -40,10 +40,18 @@ pub struct Members {
 /// Sums over members, whose rounding does not depend on their order.
 #[derive(Clone, Default, Serialize, Deserialize)]
 struct Lives {
+    #[serde(deserialize_with = "numbers")]
     sums: Vec<f64>,
     /// What the sums have lost by rounding.
+    #[serde(deserialize_with = "numbers")]
     lost: Vec<f64>,
     count: f64,
+}
+
+/// Numbers of a file, in which one that is none has no value.
+fn numbers<'de, D: Deserializer<'de>>(file: D) -> Result<Vec<f64>, D::Error> {
+    let values = Vec::<Option<f64>>::deserialize(file)?.into_iter();
+    Ok(values.map(|value| value.unwrap_or(f64::NAN)).collect())
 }
 
 impl Lives {

@@ -118,7 +118,7 @@ impl Study {
         }
         drop(machine);
         let own = file.limits.len() - file.scenario.limits.len();
-        let declared: Vec<_> = crate::warnings::of_runs().collect();
+        let declared = crate::warnings::of(&file.scenario);
         limits::check(&file.limits[..own], &known, &declared).map_err(|mut problem| {
             problem.file.clone_from(&file.file);
             problem

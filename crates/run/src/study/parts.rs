@@ -9,7 +9,7 @@ use std::sync::atomic::Ordering;
 pub const PART: usize = 64;
 /// Members that a thread has at a time, at most and at first: so that its lanes stay full, and what is not written is soon done again.
 const A_THREAD: usize = 64;
-const AT_FIRST: usize = 16;
+const AT_FIRST: usize = 8;
 /// What takes less time than this is written with more, s.
 const SOON: f64 = 10.0;
 
@@ -29,17 +29,19 @@ pub fn part_of(member: usize) -> usize {
 }
 
 /// Computes what is lacking, some at a time until an interrupt: a kill takes what is not written, so that members of seconds are written by
-/// few, those of milliseconds by many.
+/// few, those of milliseconds by many; those that coast down, whose lanes part, at first by one a thread.
 ///
 /// # Errors
 /// The first of a turn, which is the last one.
 pub fn in_turns<E>(
     lacking: &[usize],
     options: &Options,
+    coasts: bool,
     mut turn: impl FnMut(&[usize]) -> Result<(), E>,
 ) -> Result<(), E> {
+    let at_first = if coasts { 1 } else { AT_FIRST };
     let threads = options.threads.map_or_else(threads, bounded);
-    let (mut size, most) = (threads * AT_FIRST, (threads * A_THREAD).max(PART));
+    let (mut size, most) = (threads * at_first, (threads * A_THREAD).max(PART));
     let mut rest = lacking;
     while !rest.is_empty() {
         let some;

@@ -197,7 +197,8 @@ fn repeated(
                 }
             } else {
                 all.broken.get_or_insert((k, made.stop.clone()));
-                if read.is_ok() {
+                // what the user ended was not too short; the first is shown as far as it came
+                if read.is_ok() && (k == 0 || !made.stop.interrupted()) {
                     all.others.add(k, &mut made);
                 }
             }
@@ -210,7 +211,7 @@ fn repeated(
         done += some.len();
         Ok::<(), Infallible>(())
     };
-    let Ok(()) = parts::in_turns(&lacking, options, &mut turn);
+    let Ok(()) = parts::in_turns(&lacking, options, drop.coast_down.is_some(), &mut turn);
     all
 }
 

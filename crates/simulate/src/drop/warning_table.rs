@@ -64,7 +64,7 @@ problem::warnings! {
         NotLanded { place: words } "AB2424" Uncertain, each
             ("The rotor does not come to {place} before the run ends, and no magnet holds it: what it does there is not in this run. A longer run.duration shows it.");
         StillSlips { share: "1" } "AB2426" Uncertain, each
-            ("The run ends while the rotor slips on its race, which has come to {:.0} % of its speed: friction may still drive whirl, and forces and displacements grow. A longer run.duration shows it.", 100.0 * share);
+            ("The run ends while the rotor slips on its race, which has come to {:.0} % of its speed: friction may still drive whirl, and forces and displacements grow. A longer run.duration shows it.", (100.0 * share).floor());
         LayerIsWarm { since: "s", through: "s" } "AB2331" Uncertain, each
             ("The rotor's surface is hottest {since:.1} s after the first contact, and without heat.network = \"on\" its layer gives no heat to the metal behind it: from {through:.1} s on its rise, contact_temperature_rise and the share of heat that the race takes are too high. A bushing has no network: a deeper contact.surface.rotor_layer is right for longer.");
     }

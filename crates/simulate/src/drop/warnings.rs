@@ -37,7 +37,8 @@ type Graded = (f64, Warning);
 /// Warnings that say how grave they are.
 fn graded(list: impl IntoIterator<Item = Graded>) -> Vec<Warning> {
     let told = |(grade, mut warning): Graded| {
-        warning.grade = grade;
+        // an infinite number has no place in a file
+        warning.grade = grade.max(f64::MIN).min(f64::MAX);
         warning
     };
     list.into_iter().map(told).collect()
