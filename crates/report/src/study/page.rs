@@ -290,16 +290,28 @@ fn histogram(column: &Column, limits: &[&Limit]) -> String {
                 bottom - top
             );
         }
+        // several stand in one line
+        for beyond in [false, true] {
+            let far = limits.iter().map(|limit| (limit, limit.bound * factor));
+            let far = far.filter(|(_, bound)| !near(*bound) && (*bound > high) == beyond);
+            let words = far.map(|(limit, _)| {
+                format!(
+                    "{} {}",
+                    bound_word(limit),
+                    amount(limit.bound, &column.unit)
+                )
+            });
+            let words = words.collect::<Vec<_>>().join(", ");
+            let (x, anchor, words) = match beyond {
+                _ if words.is_empty() => continue,
+                true => (axes.left + axes.width, "end", format!("{words} →")),
+                false => (axes.left + BESIDE_TITLE, "start", format!("← {words}")),
+            };
+            text(svg, x, axes.top - 12.0, anchor, &words);
+        }
         for limit in limits {
             let bound = limit.bound * factor;
             if !near(bound) {
-                let bound_text = amount(limit.bound, &column.unit);
-                let words = format!("{} {bound_text}", bound_word(limit));
-                let (x, anchor, words) = match bound > high {
-                    true => (axes.left + axes.width, "end", format!("{words} →")),
-                    false => (axes.left + BESIDE_TITLE, "start", format!("← {words}")),
-                };
-                text(svg, x, axes.top - 12.0, anchor, &words);
                 continue;
             }
             let at = axes.place(bound, axes.y.0);

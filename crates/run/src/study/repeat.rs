@@ -262,10 +262,15 @@ impl Repetition {
         let rest = || (next, interrupted(0.0));
         let broken = self.broken.or_else(|| (next < count).then(rest));
         if let Some((k, stop)) = broken.filter(|_| first.stop.complete()) {
+            // of the members nothing but what is whole is kept
+            let begin = match stop.interrupted() {
+                true => "Interrupted.".to_string(),
+                false => format!("Member {k} of the repetition: {}", stop.text),
+            };
             first.stop = Stop {
                 text: format!(
-                    "Member {k} of the repetition: {}. {whole} of {count} members are whole; only these enter the spread.",
-                    stop.text.trim_end_matches('.')
+                    "{} {whole} of {count} members are whole; only these enter the spread.",
+                    begin.trim_end()
                 ),
                 ..stop
             };

@@ -40,7 +40,7 @@ problem::warnings! {
         DoubleRow "AB1125" Uncertain
             ("A double row is computed as a single row of ball_count balls: loads, pressures and friction of balls that share two rows are not those of this run.");
         HotSkid { race: text, rise: "K", time: "s", load: "N", slip: "m/s" } "AB2303" Invalid, each
-            ("Where a ball skids on the {race} race, their surfaces flash up by {rise:.0} K ({:.4} ms: {load:.0} N, slip {slip:.1} m/s): steel is tempered and may smear there, a lubricant is burnt, and the traction of this run no longer holds.", 1e3 * time);
+            ("Where a ball skids on the {race} race, the flash temperature of their surfaces rises by {rise:.0} K ({:.4} ms: {load:.0} N, slip {slip:.1} m/s): steel is tempered and may smear there, a lubricant is burnt, and the traction of this run no longer holds.", 1e3 * time);
         WideLine { half_width: "m", bore: "m", clearance: "m" } "AB2336" Invalid, coast_down
             ("The contact of rotor and race is beyond the law of its width: half-width {:.2} mm is {:.1} % of the bore's radius (10 % at most), the radial clearance {:.2} % of it (0.1 % at least). Temperatures of the patch and the conductance between rotor and race that follow from it are extrapolated.", 1e3 * half_width, 100.0 * half_width / bore, 100.0 * clearance / bore);
     }

@@ -115,7 +115,7 @@ pub(crate) fn away([first, largest]: [Peak; 2], calm: Option<f64>, changes: [f64
         ),
     };
     let by = match changes.iter().sum::<f64>() < -CLOSES_ON {
-        true => "by their own warmth",
+        true => "by their own heat",
         false => "as mounted",
     };
     let [inner, balls, outer] = changes;

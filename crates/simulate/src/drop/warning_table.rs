@@ -44,7 +44,7 @@ problem::warnings! {
         ForwardWhirlInCoastDown { time: "s", when: words } "AB2302" Invalid, coast_down
             ("Forward whirl during the coast-down, {when}: unbalance throws the rotor round the bore with its spin. One place of it stays in the contact: a hot spot, which bends the shaft and adds to its unbalance. This run bends nothing.");
         RollingDoesNotLast { time: "s", speed: "rad/s", last_time: "s", last_speed: "rad/s", force: "N" } "AB2317" Uncertain, coast_down
-            ("Rolling does not last: unbalance or a load lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, with contact forces up to {force:.3e} N. Whether such a motion is thrown into a whirl is chance: repeat the run (--repeat 8).");
+            ("Rolling does not last: unbalance or a load lifts the rotor again, from {time:.1} s and {speed:.0} rad/s on, the last time until {last_time:.1} s and {last_speed:.0} rad/s, with contact forces up to {force:.0} N. Whether such a motion becomes a whirl is chance: repeat the run (--repeat 8).");
         SlidesInCoastDown { time: "s", duration: "s", when: words, slowest: words, rubs: words, shared: words } "AB2318" Uncertain, coast_down
             ("{when} the rotor slides on its races{slowest}: friction makes {rubs}. It is in coast_down.load_dependent_heat{shared}.");
         WindowsScatter { deviation: "1", windows: "" } "AB2319" Uncertain, coast_down

@@ -37,8 +37,12 @@ type Graded = (f64, Warning);
 /// Warnings that say how grave they are.
 fn graded(list: impl IntoIterator<Item = Graded>) -> Vec<Warning> {
     let told = |(grade, mut warning): Graded| {
-        // an infinite number has no place in a file
-        warning.grade = grade.max(f64::MIN).min(f64::MAX);
+        // what has no size is the gravest, and a number all the same: files know no other
+        warning.grade = if grade.is_finite() {
+            grade
+        } else {
+            f64::MAX.copysign(grade)
+        };
         warning
     };
     list.into_iter().map(told).collect()
