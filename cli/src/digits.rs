@@ -1,6 +1,6 @@
 //! Numbers for people.
 
-use auxbear::units::number_text;
+use auxbear::units::{ICE_POINT, number_text};
 
 /// Units for people: SI unit, then units from large to small with their value in SI.
 const UNITS: &[(&str, &[(&str, f64)])] = &[
@@ -49,9 +49,6 @@ pub fn readable(si: f64, unit: &str) -> String {
         unit => format!("{number} {unit}"),
     }
 }
-
-/// Ice point, K.
-const ICE_POINT: f64 = 273.15;
 
 /// A value of a result of this name: a temperature, which no rise of one is, in °C.
 pub fn of_result(name: &str, si: f64, unit: &str) -> String {

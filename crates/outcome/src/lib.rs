@@ -24,7 +24,7 @@ use table::Table;
 const NOT_FINITE: &str = "what was computed is not a finite number";
 
 /// Everything known after a run.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Outcome {
     /// Name of the system, e.g. `drop`.
     pub system: &'static str,
@@ -49,6 +49,7 @@ pub struct Outcome {
     /// Numbers that only the pictures need, of each bearing: one at least.
     pub pictures: Vec<Picture>,
     /// Files that the run leaves beside its results.
+    #[serde(skip)]
     pub files: Vec<Attachment>,
     /// Limits of the scenario with their verdicts.
     pub limits: Vec<Judged>,
@@ -104,7 +105,7 @@ pub enum Attached {
 }
 
 /// A named result.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Quantity {
     /// Name, e.g. `first_impact_force`.
     pub name: String,
@@ -153,7 +154,8 @@ pub fn counted_from(results: &[Quantity]) -> Option<f64> {
 }
 
 /// A result in one of its kinds.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(untagged)]
 pub enum Value {
     /// A number.
     Number(f64),
@@ -186,7 +188,7 @@ impl Value {
 }
 
 /// Mean and spread over members in which the quantity exists.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Number of members in which it exists.
     pub members: usize,
@@ -239,7 +241,7 @@ impl Spread {
 }
 
 /// One column of a history.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Column {
     /// Channel name, e.g. `bearing.inner_race.speed`.
     pub name: String,
@@ -274,9 +276,10 @@ pub struct Contact {
 }
 
 /// A limit with its verdict.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judged {
     /// The limit.
+    #[serde(serialize_with = "words")]
     pub limit: Limit,
     /// SI unit of bound and value.
     pub unit: &'static str,
@@ -305,8 +308,14 @@ impl Judged {
     }
 }
 
+/// A limit in words: `peak_contact_force most 5 kN`.
+fn words<S: serde::Serializer>(limit: &Limit, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_str(&format_args!("{} {} {}", limit.quantity, limit.side.word(), limit.text))
+}
+
 /// Whether a limit is held.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// It is.
     Pass,

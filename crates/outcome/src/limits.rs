@@ -23,7 +23,8 @@ pub use crate::whirl::{
 };
 use crate::withheld::warned;
 pub use crate::withheld::{
-    CUT_BEFORE_COASTING, NEVER, UNFINISHED, left_open, of_no_machine, undecided, withheld,
+    CUT_BEFORE_COASTING, NEVER, UNFINISHED, left_open, of_no_machine, stays_broken, undecided,
+    withheld,
 };
 use crate::{Judged, Outcome, Quantity, Value, Verdict};
 use problem::warning::Declared;
@@ -280,7 +281,11 @@ fn values_of(quantity: &Quantity, limit: &Limit, outcome: &Outcome) -> (Vec<Opti
         }
         (_, false) => (vec![None], early()),
         (Value::Number(value), true) => match open(quantity.awaited) {
-            Some((_, why)) if limit.side.holds(sized(limit, *value), bound) => (vec![None], why),
+            Some((_, why))
+                if limit.side.holds(sized(limit, *value), bound) || !stays_broken(limit) =>
+            {
+                (vec![None], why)
+            }
             _ => (vec![Some(*value)], String::new()),
         },
         (Value::Text(_) | Value::List(_), true) => {

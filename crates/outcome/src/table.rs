@@ -1,13 +1,14 @@
 //! Drawn inputs beside results: a row a member, a column with unit an input or result.
 
-use crate::limits::{CUT_BEFORE_COASTING, contacts_of, left_open, sized};
+use crate::limits::{CUT_BEFORE_COASTING, contacts_of, left_open, sized, stays_broken};
 use crate::{Outcome, Quantity, Value};
 use problem::explain;
 use scenario::Limit;
+use serde::Serialize;
 use std::collections::BTreeMap;
 
 /// Members with what they drew and gave; what a member does not have is not a number.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Table {
     /// Members in their order.
     pub members: Vec<usize>,
@@ -20,7 +21,7 @@ pub struct Table {
 }
 
 /// An input or a result of all members.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub struct Column {
     /// Its name; inputs begin with `input.`.
     pub name: String,
@@ -290,7 +291,8 @@ impl Table {
         let holds = |value: f64| limit.side.holds(sized(limit, value), limit.bound);
         for (code, _) in left_open(name, is_instant) {
             for (value, warned) in values.iter_mut().zip(warned(code)) {
-                *value = value.filter(|value| warned.is_none() || !holds(*value));
+                let open = |value: &f64| holds(*value) || !stays_broken(limit);
+                *value = value.filter(|value| warned.is_none() || !open(value));
             }
         }
         values

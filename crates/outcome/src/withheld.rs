@@ -2,6 +2,7 @@
 
 use crate::{Judged, Outcome, Verdict};
 use scenario::notes::NO_QUALIFICATION;
+use scenario::{Limit, Side};
 
 /// Warnings of runs that qualify no machine, and what is said of them instead of a verdict.
 const OF_NO_MACHINE: [(&str, &str); 6] = [
@@ -64,20 +65,27 @@ const OF_FATIGUE: [(&str, &str); 2] = [
     ("AB2416", "of fatigue alone: the faces are too hot"),
 ];
 
-/// A result that no later motion changes once the first blow is over, by its last name; and what says that it may not be.
+/// A result that no later motion changes once the first blow is over, by its last name; and the warning that leaves it decided.
 const SETTLED: &str = "first_impact_force";
-const BEFORE_SETTLED: [&str; 2] = ["AB2424", "AB2423"];
+const AFTER_SETTLED: &str = "AB2426";
 
 /// Warnings with which a value of a result that holds a limit says nothing, and why. An instant that has come stays.
 pub fn left_open(name: &str, is_instant: bool) -> impl Iterator<Item = (&'static str, String)> {
     let own = name.rsplit('.').next().unwrap_or(name);
     let unfinished = UNFINISHED.iter();
     let unfinished = unfinished
-        .filter(move |(code, _)| !is_instant && (own != SETTLED || BEFORE_SETTLED.contains(code)));
+        .filter(move |(code, _)| !is_instant && (own != SETTLED || *code != AFTER_SETTLED));
     let of_fatigue = OF_FATIGUE.iter();
     let of_fatigue = of_fatigue.filter(move |_| own.starts_with("drops_until"));
     let found = unfinished.chain(of_fatigue);
     found.map(|(code, why)| (*code, format!("{why} ({code})")))
+}
+
+/// Whether a value that has not whole come breaks a limit for good: a largest one that is too small may still grow.
+pub fn stays_broken(limit: &Limit) -> bool {
+    let own = limit.quantity.rsplit('.').next().unwrap_or_default();
+    let mut largest = ["peak_", "largest_", SETTLED].into_iter();
+    limit.side == Side::Most || !largest.any(|begin| own.starts_with(begin))
 }
 
 /// Warnings of what moves the whole rotor, and so every bearing.

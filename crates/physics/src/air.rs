@@ -4,6 +4,7 @@
 //! gap. In thick gas it is a fifth of a micrometre, in thin gas longer than any gap, and molecules fly from wall to wall.
 
 use crate::heat_exchange::{AIR_MOLAR_MASS, GAS_CONSTANT, free_molecular_air};
+use units::STANDARD_GRAVITY;
 
 /// Pressure of air at sea level, Pa. Source: ISO 2533.
 pub const SEA_LEVEL: f64 = 101_325.0;
@@ -11,8 +12,6 @@ pub const SEA_LEVEL: f64 = 101_325.0;
 const ACCOMMODATION: f64 = 1.0;
 /// Prandtl number of air. Source: tables, 0.69 to 0.71 from 250 to 600 K.
 const PRANDTL: f64 = 0.7;
-/// Standard gravity, m/s². Source: defined, ISO 80000-3.
-pub const GRAVITY: f64 = 9.80665;
 /// Largest Reynolds number ΩD²/(2ν) that the law of [`cylinder_in_air`] was fitted to.
 pub const LARGEST_REYNOLDS: f64 = 4.3e5;
 /// Reynolds number from which on buoyancy has no part in it.
@@ -82,7 +81,7 @@ pub fn cylinder_in_air(diameter: f64, speed: f64, temperatures: [f64; 2], pressu
     let film = 0.5 * (temperatures[0] + temperatures[1]);
     let nu = viscosity(film, pressure);
     let warmer = (temperatures[0] - temperatures[1]).abs() / film;
-    let grashof = GRAVITY * warmer * diameter.powi(3) / (nu * nu);
+    let grashof = STANDARD_GRAVITY * warmer * diameter.powi(3) / (nu * nu);
     let fluid = (1.0 + (0.559 / PRANDTL).powf(9.0 / 16.0)).powf(8.0 / 27.0);
     let still = (0.6 + 0.387 * (grashof * PRANDTL).powf(1.0 / 6.0) / fluid).powi(2);
     let turns = reynolds(diameter, speed, film, pressure);

@@ -19,8 +19,7 @@
 
 use number::Real;
 
-/// 0 °C, K.
-pub const ICE_POINT: f64 = 273.15;
+pub use units::ICE_POINT;
 
 /// Least and largest viscosity of the line, mm²/s.
 const RANGE: (f64, f64) = (0.21, 2e7);

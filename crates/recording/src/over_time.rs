@@ -3,12 +3,10 @@
 use crate::unit::{speed_factor, unit_of};
 use crate::{Clock, FileError, Recording, find};
 use problem::Code;
-use units::Unit;
+use units::{STANDARD_GRAVITY, Unit};
 
 /// Largest number of a record: sums and slopes of what is beyond have no finite value.
 const LARGEST: f64 = 1e100;
-/// Standard acceleration of gravity, m/s²: accelerometers count in it.
-const STANDARD_GRAVITY: f64 = 9.80665;
 
 /// In which unit a channel is wanted.
 #[derive(Clone, Copy, Debug)]

@@ -11,7 +11,7 @@ use super::figures::with_figures;
 use super::members::{self, Kept, MEMBERS};
 use super::page::{self, PageColumn, PageRun};
 use super::picture;
-use super::place::{FILES, has_members_of, hashes, of_another, was_interrupted};
+use super::place::{FILES, has_members_of, hash_of, hashes, of_another, was_interrupted};
 pub use super::place::{RUNS, besides, free_path, free_path_in, has_members, path_of_run};
 use super::{history, summary};
 use outcome::{Attached, Stop};
@@ -66,9 +66,12 @@ impl NewDirectory {
             return NewDirectory::reserve(path);
         }
         let resolved = scenario.resolved.toml();
+        if was_interrupted(path, None) && !was_interrupted(path, Some(&resolved)) {
+            return Err(of_another(path));
+        }
         if let Some(partial) = partial_of(path)
             && !exists(&partial)
-            && was_interrupted(path, &resolved)
+            && was_interrupted(path, Some(&resolved))
         {
             fs::rename(path, &partial).map_err(|error| misplaced(path, &error))?;
         }
@@ -80,7 +83,8 @@ impl NewDirectory {
             let place = own.partial.join(MEMBERS).join(FILES);
             aside(&place, |mut file| file.write_all(hashes.as_bytes()))?;
         }
-        let (kept, there) = Kept::of(&own.partial, members)?;
+        let run = hash_of(&format!("{resolved}{hashes}"));
+        let (kept, there) = Kept::of(&own.partial, members, run)?;
         (own.kept, own.there) = (Some(kept), there);
         Ok(own)
     }
@@ -192,7 +196,12 @@ impl NewDirectory {
         let summary_json = summary::of_page(scenario, outcome)
             .map_err(|error| failed(&self.partial.join(SUMMARY), &error.into()))?;
         let scenario_toml = scenario.resolved.toml();
+        let members = match &self.kept {
+            Some(kept) => kept.problem().map_or(Ok(()), Err),
+            None => members::write_all(&self.partial, &outcome.members),
+        };
         let mut written = vec![
+            members,
             self.file(SCENARIO, |file| file.write_all(scenario_toml.as_bytes())),
             self.file(SUMMARY, |file| {
                 summary::write(file, scenario, outcome, &outcome.stop).map_err(Into::into)
@@ -218,10 +227,6 @@ impl NewDirectory {
         };
         let html = page::html(&[run]);
         written.push(self.file(REPORT, |file| file.write_all(html.as_bytes())));
-        written.push(match &self.kept {
-            Some(kept) => kept.problem().map_or(Ok(()), Err),
-            None => members::write_all(&self.partial, &outcome.members),
-        });
         written.into_iter().collect::<Result<(), _>>()?;
         self.named()
     }

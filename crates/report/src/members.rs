@@ -140,6 +140,8 @@ pub(super) fn damaged(path: &Path, found: impl Into<String>) -> Box<Problem> {
 pub(super) struct Kept {
     directory: PathBuf,
     count: usize,
+    /// Hash of what their scenario is.
+    run: String,
     /// The first that could not be written.
     problem: Mutex<Option<Box<Problem>>>,
 }
@@ -148,6 +150,7 @@ pub(super) struct Kept {
 #[derive(Serialize, Deserialize)]
 struct Stored<M> {
     version: String,
+    run: String,
     members: M,
 }
 
@@ -156,10 +159,11 @@ impl Kept {
     ///
     /// # Errors
     /// A part that cannot be read.
-    pub(super) fn of(directory: &Path, count: usize) -> Result<(Kept, usize)> {
+    pub(super) fn of(directory: &Path, count: usize, run: String) -> Result<(Kept, usize)> {
         let own = Kept {
             directory: directory.to_path_buf(),
             count,
+            run,
             problem: Mutex::new(None),
         };
         let parts = (0..parts::count(count)).map(|part| own.part(part));
@@ -188,6 +192,9 @@ impl Kept {
         };
         let stored: Stored<Members> =
             serde_json::from_str(&text).map_err(|error| damaged(&place, error.to_string()))?;
+        if stored.run != self.run {
+            return Err(damaged(&place, "members of another run"));
+        }
         let mut members = stored.members;
         members.table = table;
         Ok((stored.version == env!("CARGO_PKG_VERSION")).then_some(members))
@@ -200,6 +207,7 @@ impl Kept {
         let unwritten = |error: &std::io::Error| failed(&place, error);
         let stored = Stored {
             version: env!("CARGO_PKG_VERSION").to_string(),
+            run: self.run.clone(),
             members: &whole,
         };
         let stored = serde_json::to_string(&stored).map_err(|error| unwritten(&error.into()))?;

@@ -20,7 +20,7 @@ pub fn path_of_run(name: &str, scenario: &Scenario) -> PathBuf {
     let goes_on = |path: &PathBuf| {
         let left =
             |partial: PathBuf| has_members_of(&partial, &resolved) && locked(&partial).is_ok();
-        was_interrupted(path, &resolved) || !exists(path) && partial_of(path).is_some_and(left)
+        was_interrupted(path, Some(&resolved)) || !exists(path) && partial_of(path).is_some_and(left)
     };
     places(Path::new(RUNS), name)
         .find(|path| is_free(path) || goes_on(path))
@@ -71,6 +71,11 @@ pub(super) fn of_another(partial: &Path) -> Box<Problem> {
     Problem::at_path(Code::OutputExists, partial, found, needed)
 }
 
+/// Hash of a text.
+pub(super) fn hash_of(text: &str) -> String {
+    format!("{:x}", Sha256::digest(text))
+}
+
 /// Hashes of the files that members depend on, beside them.
 pub(super) const FILES: &str = "files.sha256";
 
@@ -112,8 +117,8 @@ pub fn besides(directory: &Path) -> Vec<String> {
     names
 }
 
-/// Whether a run directory is that of a repetition of this scenario which the user ended.
-pub(super) fn was_interrupted(path: &Path, resolved: &str) -> bool {
+/// Whether a run directory is that of a repetition which the user ended; of this scenario, where one is given.
+pub(super) fn was_interrupted(path: &Path, resolved: Option<&str>) -> bool {
     #[derive(serde::Deserialize)]
     struct Ended {
         stop: Reason,
@@ -125,5 +130,6 @@ pub(super) fn was_interrupted(path: &Path, resolved: &str) -> bool {
     let ended = |text: &Vec<u8>| {
         serde_json::from_slice::<Ended>(text).is_ok_and(|own| own.stop.reason == "interrupted")
     };
-    has_members_of(path, resolved) && fs::read(path.join(SUMMARY)).is_ok_and(|text| ended(&text))
+    let is_of = resolved.map_or_else(|| has_members(path), |resolved| has_members_of(path, resolved));
+    is_of && fs::read(path.join(SUMMARY)).is_ok_and(|text| ended(&text))
 }

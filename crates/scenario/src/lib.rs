@@ -63,7 +63,7 @@ pub use drop::event_checks::{MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES};
 pub use drop::{
     AuxiliaryBearing, Base, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
     Levitation, MagnetEvent, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor,
-    STANDARD_GRAVITY, Shaft, Shock, Spectrum, Spin, When,
+    Shaft, Shock, Spectrum, Spin, When,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};

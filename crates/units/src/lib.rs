@@ -19,6 +19,11 @@
 #![forbid(unsafe_code)]
 #![deny(clippy::disallowed_methods, clippy::disallowed_types)]
 
+/// 0 °C, K. Source: definition of the degree Celsius.
+pub const ICE_POINT: f64 = 273.15;
+/// Standard acceleration of gravity, m/s². Source: definition, ISO 80000-3.
+pub const STANDARD_GRAVITY: f64 = 9.80665;
+
 mod dimension;
 mod error;
 mod near;

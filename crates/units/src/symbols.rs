@@ -1,5 +1,6 @@
 //! The known unit symbols.
 
+use crate::ICE_POINT;
 use crate::dimension::Dimension;
 use std::f64::consts::PI;
 
@@ -54,7 +55,7 @@ pub(crate) const SYMBOLS: &[Symbol] = symbols! {
     Dimension::MASS => "lbm" (-8, 45_359_237.0, 1.0);
     Dimension::TIME => "s" (0), "ms" (-3), "us" (-6), "µs" (-6), "μs" (-6), "ns" (-9),
         "min" (0, 60.0, 1.0), "h" (0, 3600.0, 1.0);
-    Dimension::TEMPERATURE => "K" (0), "degC" (0, 1.0, 1.0, 273.15), "°C" (0, 1.0, 1.0, 273.15);
+    Dimension::TEMPERATURE => "K" (0), "degC" (0, 1.0, 1.0, ICE_POINT), "°C" (0, 1.0, 1.0, ICE_POINT);
     Dimension::ANGLE => "rad" (0), "mrad" (-3), "deg" (0, PI, 180.0), "°" (0, PI, 180.0),
         "rev" (0, 2.0 * PI, 1.0);
     Dimension::ANGULAR_SPEED => "rpm" (0, PI, 30.0), "RPM" (0, PI, 30.0), "r/min" (0, PI, 30.0),

@@ -31,6 +31,12 @@ fn a_limit_is_judged_by_the_value_of_the_run() {
     assert_eq!((limit.value, limit.unit), (Some(force), "N"));
     assert!(force < 5000.0 && limit.verdict == Verdict::Pass);
     assert!(run.stop.complete());
+    // and for other programs
+    let json = serde_json::to_value(&run).unwrap();
+    assert_eq!(json["limits"][0]["limit"], "first_impact_force most 5 kN");
+    assert_eq!(json["limits"][0]["verdict"], "pass");
+    assert_eq!(json["quantities"][0]["name"], run.quantities[0].name);
+    assert_eq!(json["history"][0]["values"], serde_json::json!(run.history[0].values));
 
     let failed = judged(&text, &["limit.first_impact_force.most=10 N"]);
     assert_eq!(failed.len(), 1);
@@ -218,6 +224,12 @@ fn the_first_impact_is_decided_once_it_is_over() {
             assert_eq!(found.verdict, verdict, "{sets:?}: {}", found.why);
             assert!(sets.len() > 1 || found.why.contains(code), "{}", found.why);
         }
+    }
+    // what may still grow may come to it
+    let least = text.replace("most", "least");
+    for sets in [vec!["run.duration=7.2 ms"], vec!["run.duration=7.2 ms", "repeat.count=2"]] {
+        let found = &judged(&least, &sets)[0];
+        assert_eq!(found.verdict, Verdict::Undecided, "{}", found.why);
     }
     let broken = text.replace("5 kN", "10 N");
     let found = &judged(&broken, &["run.duration=7.2 ms"])[0];

@@ -143,15 +143,13 @@ pub struct Gravity {
     pub axial: f64,
 }
 
-/// Standard gravity, m/s².
-pub const STANDARD_GRAVITY: f64 = 9.80665;
 /// Gravity at the place on Earth where it is weakest, m/s² (Huascarán, 9.764).
 const WEAKEST_GRAVITY: f64 = 9.76;
 
 /// The share of g that acts along a shaft of which a gravity, m/s², acts across; 0 where that may be all of it.
 pub fn axial_share(across: f64) -> f64 {
     match across < WEAKEST_GRAVITY {
-        true => (1.0 - (across / STANDARD_GRAVITY).powi(2)).sqrt(),
+        true => (1.0 - (across / units::STANDARD_GRAVITY).powi(2)).sqrt(),
         false => 0.0,
     }
 }

@@ -6,7 +6,7 @@ use crate::several::PLANES;
 use crate::spin_up::DriveKind;
 use crate::system::{COAST_DOWN, ON_RIG};
 use crate::values::{Value, Values};
-use physics::air::{GRAVITY, SEA_LEVEL};
+use physics::air::SEA_LEVEL;
 use physics::heat_conduction::STEEL_HEAT;
 use physics::heat_exchange::{GROUND_STEEL, pressed_joint, to_surroundings};
 use physics::ring::PressFit;
@@ -40,7 +40,7 @@ impl Values {
             if self.is_in(COAST_DOWN) {
                 let how = "mass / number of all rows, times its rows, times 9.80665 m/s²";
                 let own = self.number(PLANES).unwrap_or(1.0) * share;
-                self.fill("coast_down.radial_load", own * GRAVITY, how)?;
+                self.fill("coast_down.radial_load", own * units::STANDARD_GRAVITY, how)?;
             }
             let capacity = share * STEEL_HEAT.specific_heat;
             let how = "mass / number of rows times 460 J/(kg K): all of the rotor";
