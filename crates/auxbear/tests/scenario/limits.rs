@@ -225,6 +225,14 @@ fn the_first_impact_is_decided_once_it_is_over() {
             assert!(sets.len() > 1 || found.why.contains(code), "{}", found.why);
         }
     }
+    // and of a machine before what happens to it has happened, and while it still strikes
+    let blade = include_str!("../../../../scenarios/machine_blade_loss.toml");
+    let limit = "limit.drive_end.first_impact_force.most=200 N";
+    for duration in ["run.duration=10 ms", "run.duration=24.35 ms"] {
+        let found = judged(blade, &[duration, limit]);
+        let found = found.last().expect("it is the last");
+        assert_eq!(found.verdict, Verdict::Undecided, "{}", found.why);
+    }
     // what may still grow may come to it
     let least = text.replace("most", "least");
     for sets in [vec!["run.duration=7.2 ms"], vec!["run.duration=7.2 ms", "repeat.count=2"]] {
