@@ -310,7 +310,12 @@ impl Judged {
 
 /// A limit in words: `peak_contact_force most 5 kN`.
 fn words<S: serde::Serializer>(limit: &Limit, serializer: S) -> Result<S::Ok, S::Error> {
-    serializer.collect_str(&format_args!("{} {} {}", limit.quantity, limit.side.word(), limit.text))
+    serializer.collect_str(&format_args!(
+        "{} {} {}",
+        limit.quantity,
+        limit.side.word(),
+        limit.text.trim_matches('"')
+    ))
 }
 
 /// Whether a limit is held.

@@ -20,7 +20,8 @@ pub fn path_of_run(name: &str, scenario: &Scenario) -> PathBuf {
     let goes_on = |path: &PathBuf| {
         let left =
             |partial: PathBuf| has_members_of(&partial, &resolved) && locked(&partial).is_ok();
-        was_interrupted(path, Some(&resolved)) || !exists(path) && partial_of(path).is_some_and(left)
+        was_interrupted(path, Some(&resolved))
+            || !exists(path) && partial_of(path).is_some_and(left)
     };
     places(Path::new(RUNS), name)
         .find(|path| is_free(path) || goes_on(path))
@@ -130,6 +131,9 @@ pub(super) fn was_interrupted(path: &Path, resolved: Option<&str>) -> bool {
     let ended = |text: &Vec<u8>| {
         serde_json::from_slice::<Ended>(text).is_ok_and(|own| own.stop.reason == "interrupted")
     };
-    let is_of = resolved.map_or_else(|| has_members(path), |resolved| has_members_of(path, resolved));
+    let is_of = resolved.map_or_else(
+        || has_members(path),
+        |resolved| has_members_of(path, resolved),
+    );
     is_of && fs::read(path.join(SUMMARY)).is_ok_and(|text| ended(&text))
 }

@@ -62,8 +62,8 @@ pub use drop::case::{CASE, Cases};
 pub use drop::event_checks::{MOST_LOADED, MOST_SPEEDS, MOST_UNBALANCES};
 pub use drop::{
     AuxiliaryBearing, Base, BearingPlace, Body, CUTOFFS, Contact, Drop, Event, Gravity, Happens,
-    Levitation, MagnetEvent, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor,
-    Shaft, Shock, Spectrum, Spin, When,
+    Levitation, MagnetEvent, Mount, RecordFile, Relevitation, Repeat, RigidBody, Rotor, Shaft,
+    Shock, Spectrum, Spin, When,
 };
 pub use heat::{Atmosphere, CageMaterial, Feedback, Heat, Warm};
 pub use identify::{Explanations, Identify, RotorFriction};

@@ -36,7 +36,10 @@ fn a_limit_is_judged_by_the_value_of_the_run() {
     assert_eq!(json["limits"][0]["limit"], "first_impact_force most 5 kN");
     assert_eq!(json["limits"][0]["verdict"], "pass");
     assert_eq!(json["quantities"][0]["name"], run.quantities[0].name);
-    assert_eq!(json["history"][0]["values"], serde_json::json!(run.history[0].values));
+    assert_eq!(
+        json["history"][0]["values"],
+        serde_json::json!(run.history[0].values)
+    );
 
     let failed = judged(&text, &["limit.first_impact_force.most=10 N"]);
     assert_eq!(failed.len(), 1);
@@ -235,7 +238,10 @@ fn the_first_impact_is_decided_once_it_is_over() {
     }
     // what may still grow may come to it
     let least = text.replace("most", "least");
-    for sets in [vec!["run.duration=7.2 ms"], vec!["run.duration=7.2 ms", "repeat.count=2"]] {
+    for sets in [
+        vec!["run.duration=7.2 ms"],
+        vec!["run.duration=7.2 ms", "repeat.count=2"],
+    ] {
         let found = &judged(&least, &sets)[0];
         assert_eq!(found.verdict, Verdict::Undecided, "{}", found.why);
     }
