@@ -6,13 +6,15 @@ use crate::document::{Document, Input};
 use crate::key::{Condition, Key, Kind, Otherwise, Presence, conditions, quoted};
 use crate::resolved::{Resolved, ResolvedValue};
 use crate::several::{self, AUXILIARY_BEARING};
+use crate::system::SystemName;
 use crate::table;
 use crate::values::{COMPARED_LAWS, Known, LAW, LUBRICATION, Value, Values};
 use problem::provenance::Provenance;
 use problem::read::POWER_TOLERANCE;
 use problem::{Code, Place, Problem, Result};
 use std::cell::RefCell;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
+use std::sync::{Arc, LazyLock};
 use units::{Rational, parse_quantity};
 
 /// A file as it was read, for reading it again with other values at a few keys.
@@ -20,15 +22,62 @@ use units::{Rational, parse_quantity};
 pub struct Before {
     /// What it gave.
     document: Document,
-    /// What that came to.
-    pub(crate) known: BTreeMap<&'static str, Known>,
+    /// What it gave, or left to catalogue and defaults.
+    filled: BTreeMap<&'static str, Known>,
+    record: Option<BearingRecord>,
+    without_effect: Vec<&'static str>,
+    hidden: Arc<[bool]>,
+    /// What all that came to.
+    known: BTreeMap<&'static str, Known>,
 }
 
 impl Before {
     /// A file with its values.
-    pub fn new(document: Document, values: Values) -> Self {
-        let known = values.known;
-        Before { document, known }
+    pub fn of(document: Document, bearings: &dyn BearingSource) -> Result<Self> {
+        let mut values = Values::filled(&document, bearings, None)?;
+        let filled = values.known.clone();
+        values.derive(None)?;
+        Ok(Before {
+            document,
+            filled,
+            hidden: values.hidden_keys().into(),
+            record: values.record,
+            without_effect: values.without_effect,
+            known: values.known,
+        })
+    }
+
+    /// The values of a document that differs in numbers alone on whose keys no other one depends; none of another one.
+    fn with(&self, document: &Document) -> Result<Option<Values>> {
+        let before = &self.document;
+        let mut there = before.values.keys();
+        if before.system != document.system || !there.all(|path| document.values.contains_key(path))
+        {
+            return Ok(None);
+        }
+        let mut values = Values {
+            known: self.filled.clone(),
+            record: self.record.clone(),
+            without_effect: self.without_effect.clone(),
+            hidden: Some(self.hidden.clone()),
+            ..Values::none(document)
+        };
+        for (path, given) in &document.values {
+            if before.values.get(path) == Some(given) {
+                continue;
+            }
+            let key = table::keys_of(document.system).find(|key| key.path == *path);
+            let Some(key) = key.filter(|key| stands_alone(key) && values.unmet(key).is_none())
+            else {
+                return Ok(None);
+            };
+            let known = values.reader(key).read(key, given)?;
+            if known.filled_in {
+                return Ok(None);
+            }
+            values.known.insert(key.path, known);
+        }
+        Ok(Some(values))
     }
 
     /// The value of a key that is given, or left to its default, as it was, and that follows from nothing else.
@@ -67,14 +116,24 @@ impl Before {
 }
 
 impl Values {
-    /// Reads every given value and fills the rest from catalogue and defaults; `before` is the file with other values at a few keys.
+    /// A value for every key; `before` is the file with other values at a few keys.
     pub fn resolve(
         document: &Document,
         bearings: &dyn BearingSource,
         before: Option<&Before>,
     ) -> Result<Values> {
-        let same = |key| before?.same(key, document).cloned();
-        let mut values = Values {
+        let known = before.map_or(Ok(None), |before| before.with(document))?;
+        let mut values = match known {
+            Some(values) => values,
+            None => Values::filled(document, bearings, before)?,
+        };
+        values.derive(before)?;
+        Ok(values)
+    }
+
+    /// No value yet.
+    fn none(document: &Document) -> Values {
+        Values {
             file: document.file.clone(),
             system: document.system,
             bearing: document.bearing.clone(),
@@ -83,7 +142,18 @@ impl Values {
             record: None,
             lacking: RefCell::default(),
             without_effect: Vec::new(),
-        };
+            hidden: None,
+        }
+    }
+
+    /// Reads every given value and fills the rest from catalogue and defaults.
+    fn filled(
+        document: &Document,
+        bearings: &dyn BearingSource,
+        before: Option<&Before>,
+    ) -> Result<Values> {
+        let same = |key| before?.same(key, document).cloned();
+        let mut values = Values::none(document);
         let own = values.own_catalogue(document)?;
         let bearings = own
             .as_ref()
@@ -162,7 +232,6 @@ impl Values {
         if !missing.is_empty() {
             return Err(values.all_missing(missing));
         }
-        values.derive(before)?;
         Ok(values)
     }
 
@@ -414,12 +483,14 @@ impl Values {
         // of what a run does not read only what is given
         let beside = table::keys_of_analysis(self.system);
         let beside = beside.filter(|key| self.known.contains_key(key.path));
-        let keys = table::keys_of(self.system).chain(beside);
-        for key in keys.filter(|key| wanted(key.path)) {
+        let hidden: Arc<[bool]> = match &self.hidden {
+            Some(hidden) => hidden.clone(),
+            None => self.hidden_keys().into(),
+        };
+        let keys = table::keys_of(self.system).zip(hidden.iter());
+        let keys = keys.filter_map(|(key, hidden)| (!hidden).then_some(key));
+        for key in keys.chain(beside).filter(|key| wanted(key.path)) {
             let known = self.known.get(key.path);
-            if known.is_none() && self.unmet(key).is_some() {
-                continue;
-            }
             let absent = match table::presence(key, self.system) {
                 Presence::Derived(how) => Some(Provenance::Derived(how.to_string())),
                 Presence::Optional(meaning) => {
@@ -446,6 +517,12 @@ impl Values {
         list
     }
 
+    /// Of each key of the system whether it has neither a value nor a meaning here.
+    fn hidden_keys(&self) -> Vec<bool> {
+        let hidden = |key: &Key| !self.known.contains_key(key.path) && self.unmet(key).is_some();
+        table::keys_of(self.system).map(hidden).collect()
+    }
+
     fn si_unit(&self, key: &Key) -> String {
         match key.kind {
             Kind::ContactStiffness { .. } => self
@@ -455,6 +532,27 @@ impl Values {
             _ => key.unit().to_string(),
         }
     }
+}
+
+/// Whether a key has a number, and no other key's meaning, default or value depends on it before values are derived.
+fn stands_alone(key: &Key) -> bool {
+    static OTHERS: LazyLock<HashSet<&str>> = LazyLock::new(|| {
+        let mut paths = HashSet::new();
+        for key in table::keys() {
+            paths.extend(conditions(key).map(|condition| condition.path));
+            for system in SystemName::ALL {
+                if let Presence::DefaultWhen(condition, ..) = table::presence(key, *system) {
+                    paths.insert(condition.path);
+                }
+            }
+            if let Kind::ContactStiffness { exponent } = key.kind {
+                paths.insert(exponent);
+            }
+            paths.extend(key.excludes.into_iter().flat_map(|other| [key.path, other]));
+        }
+        paths
+    });
+    matches!(key.kind, Kind::Quantity(_) | Kind::Coefficient) && !OTHERS.contains(key.path)
 }
 
 /// Later places count more: lines in their order, then overrides.

@@ -11,6 +11,7 @@ use problem::words::Words;
 use problem::{Code, Place, Problem, Result};
 use std::cell::RefCell;
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 /// Key of the law of the friction moment, on which its constants depend.
 pub const LAW: &str = "bearing.moment.law";
@@ -35,6 +36,8 @@ pub struct Values {
     pub lacking: RefCell<Vec<String>>,
     /// Given keys that nothing is computed from, kept as information.
     pub without_effect: Vec<&'static str>,
+    /// Of each key of the system whether it has neither a value nor a meaning, where that is known from a file with the same choices.
+    pub(crate) hidden: Option<Arc<[bool]>>,
 }
 
 /// Surface speed that no rotor reaches, m/s.

@@ -27,3 +27,4 @@ mod spin_up_runs;
 mod starting_files;
 mod surfaces;
 mod table;
+mod variations;

@@ -99,7 +99,7 @@ fn parsed(text: &str) -> Value {
     toml::from_str(text).unwrap()
 }
 
-fn shipped() -> Vec<PathBuf> {
+pub(super) fn shipped() -> Vec<PathBuf> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
     let mut files: Vec<PathBuf> = fs::read_dir(folder)
         .unwrap()

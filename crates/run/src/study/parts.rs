@@ -52,7 +52,8 @@ pub fn in_turns<E>(
             break;
         }
         if seconds < SOON {
-            size = most.min(2 * size);
+            // as many as there are already, so that turns end with the parts
+            size = most.min(lacking.len() - rest.len());
         }
     }
     Ok(())
