@@ -287,13 +287,11 @@ pub struct AuxiliaryBearing<R: Real> {
 
 /// What the rotor does at the node.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct AtNode<'a, R> {
+pub(crate) struct AtNode<R> {
     /// Its motion.
     pub centre: GeometricCentre<R>,
     /// What the contact does at this motion.
     pub contact: ContactReaction<R>,
-    /// What acts on a rig.
-    pub acting: Option<&'a Acting<R>>,
 }
 
 /// How the races of a bearing on a rig move and turn.
@@ -376,7 +374,8 @@ impl<R: Real> AuxiliaryBearing<R> {
         rate: &mut [R],
         probe: &mut [R],
     ) -> BearingReaction<R> {
-        let detail = if probe.is_empty() {
+        let looks = !probe.is_empty();
+        let detail = if !looks {
             &mut [][..]
         } else {
             // a short list has room for the watched probes alone
@@ -386,7 +385,7 @@ impl<R: Real> AuxiliaryBearing<R> {
             &mut probe[at.detail.min(end)..end]
         };
         let (state, rate) = (&state[at.own()], &mut rate[at.own()]);
-        (self.bearing).react_under(motion, held_load, state, rate, detail)
+        (self.bearing).react_under(motion, (held_load, looks), state, rate, detail)
     }
 
     /// Adds an acceleration of all bodies alike, m/s², to the rates of balls, cage and housing, after these are written; those
@@ -430,7 +429,7 @@ impl<R: Real> AuxiliaryBearing<R> {
     pub(crate) fn accelerate(
         &self,
         at: &BearingAt,
-        (node, node_acceleration): (&AtNode<'_, R>, Vec2<R>),
+        (node, node_acceleration, acting): (&AtNode<R>, Vec2<R>, Option<&Acting<R>>),
         gravity: Vec2<R>,
         motion: &Motion<R>,
         (bearing, on_outer): (&BearingReaction<R>, &MountReaction<R>),
@@ -451,7 +450,7 @@ impl<R: Real> AuxiliaryBearing<R> {
 
         // turn of the inner race
         let by_contact = contact.on_bore.moment;
-        let (inner_moment, on_race) = match node.acting {
+        let (inner_moment, on_race) = match acting {
             None => (by_contact + bearing.on_inner.moment + race.torque, zero),
             Some(acting) => {
                 let on_race = bearing.on_inner.moment - acting.support;
@@ -460,7 +459,7 @@ impl<R: Real> AuxiliaryBearing<R> {
         };
         let mut bearing = (*bearing).with_loss(inner.spin, inner_moment);
         let inertia = race.inertia + bearing.inner_inertia;
-        let inner_spin_rate = match node.acting {
+        let inner_spin_rate = match acting {
             None if self.bushing => zero,
             None => inner_moment / inertia,
             Some(acting) => acting.spin_rate(inner_moment, inertia),
@@ -521,7 +520,7 @@ impl<R: Real> AuxiliaryBearing<R> {
             ];
             probe[at.probe..at.probe + probe::COUNT].copy_from_slice(&values);
         }
-        if let (Some(acting), Some(fixture)) = (node.acting, &self.fixture) {
+        if let (Some(acting), Some(fixture)) = (acting, &self.fixture) {
             // copies: what a call outside of the kernel sees stays in memory
             let turned = Turned {
                 motion: *motion,

@@ -88,10 +88,15 @@ impl StepEnd {
     pub(crate) fn take<R: Real>(&mut self, state: &[R], probe: &[R]) {
         let width = self.channels + self.probes;
         assert!(probe.len() == self.probes && self.values.len() == R::LANES * width);
-        for (k, lanes) in state[..self.channels].iter().chain(probe).enumerate() {
-            // the lanes inside: their number is known when this is compiled
+        // the lanes inside: their number is known when this is compiled; two loops, for one over a chain asks at each value
+        for (k, lanes) in state[..self.channels].iter().enumerate() {
             for lane in 0..R::LANES {
                 self.values[lane * width + k] = lanes.lane(lane);
+            }
+        }
+        for (k, lanes) in probe.iter().enumerate() {
+            for lane in 0..R::LANES {
+                self.values[lane * width + self.channels + k] = lanes.lane(lane);
             }
         }
     }

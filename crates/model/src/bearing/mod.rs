@@ -480,23 +480,25 @@ impl<R: Real> Bearing<R> {
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
-        self.react_under(motion, R::zero(), state, rate, detail)
+        self.react_under(motion, (R::zero(), true), state, rate, detail)
     }
 
     /// The same where something holds the races apart from a radial load: that load, N, moves nothing, but adds to the
-    /// load that the steady moment's law sees.
+    /// load that the steady moment's law sees. Largest values only where somebody looks.
     #[inline(always)]
     pub fn react_under(
         &self,
         motion: &Motion<R>,
-        held_load: R,
+        (held_load, looks): (R, bool),
         state: &[R],
         rate: &mut [R],
         detail: &mut [R],
     ) -> BearingReaction<R> {
         match self {
             Bearing::Rolling(bearing) => bearing.react(motion, held_load, state, rate, detail),
-            Bearing::Planar(bearing) => bearing.react(motion, held_load, state, rate, detail),
+            Bearing::Planar(bearing) => {
+                bearing.react(motion, (held_load, looks), state, rate, detail)
+            }
             Bearing::Spatial => BearingReaction::zero(),
         }
     }

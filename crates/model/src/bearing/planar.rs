@@ -112,7 +112,7 @@ impl<R: Real> Planar<R> {
     pub(crate) fn react(
         &self,
         motion: &Motion<R>,
-        held_load: R,
+        (held_load, looks): (R, bool),
         state: &[R],
         rate: &mut [R],
         detail: &mut [R],
@@ -164,6 +164,7 @@ impl<R: Real> Planar<R> {
             slowing,
             rate,
             detail,
+            looks,
         };
         let mut reaction = match factors {
             // the law is chosen once a call, not once a ball
@@ -380,6 +381,7 @@ impl<R: Real> Planar<R> {
             slowing,
             rate,
             detail,
+            looks,
             ..
         } = sum;
         let n = self.row.balls;
@@ -432,27 +434,35 @@ impl<R: Real> Planar<R> {
                     r.heat.pocket_sliding,
                 ],
             );
-            // a group repeats the last ball behind the end of the list: no harm to a maximum
-            largest = [
-                largest[0].max(r.inner_load),
-                largest[1].max(r.outer_load),
-                largest[2].max(r.pocket_force),
-                largest[3].max(r.inner_slip * r.inner_slip * r.inner_load),
-                largest[4].max(r.outer_slip * r.outer_slip * r.outer_load),
-            ];
-            let details = [
-                r.inner_load,
-                r.outer_load,
-                r.inner_slip,
-                r.outer_slip,
-                r.pocket_force,
-                r.inner_traction,
-                r.outer_traction,
-            ];
-            for (list, value) in detail.chunks_exact_mut(n).zip(details) {
-                R::store_group(value, list, from);
+            if looks {
+                // a group repeats the last ball behind the end of the list: no harm to a maximum
+                largest = [
+                    largest[0].max(r.inner_load),
+                    largest[1].max(r.outer_load),
+                    largest[2].max(r.pocket_force),
+                    largest[3].max(r.inner_slip * r.inner_slip * r.inner_load),
+                    largest[4].max(r.outer_slip * r.outer_slip * r.outer_load),
+                ];
+                let details = [
+                    r.inner_load,
+                    r.outer_load,
+                    r.inner_slip,
+                    r.outer_slip,
+                    r.pocket_force,
+                    r.inner_traction,
+                    r.outer_traction,
+                ];
+                for (list, value) in detail.chunks_exact_mut(n).zip(details) {
+                    R::store_group(value, list, from);
+                }
             }
             from += R::GROUP;
+        }
+        let mut of_all = [R::zero(); 5];
+        if looks {
+            for (own, largest) in of_all.iter_mut().zip(largest) {
+                *own = largest_part::<R>(largest);
+            }
         }
         let s = sums.total();
         let cage_drag = self.cage_drag * cage_speed;
@@ -477,10 +487,10 @@ impl<R: Real> Planar<R> {
                 pocket_sliding: s[14],
                 ..BearingHeat::zero()
             },
-            largest_inner_load: largest_part::<R>(largest[0]),
-            largest_outer_load: largest_part::<R>(largest[1]),
-            largest_skids: [largest_part::<R>(largest[3]), largest_part::<R>(largest[4])],
-            largest_pocket_force: largest_part::<R>(largest[2]),
+            largest_inner_load: of_all[0],
+            largest_outer_load: of_all[1],
+            largest_skids: [of_all[3], of_all[4]],
+            largest_pocket_force: of_all[2],
             land_force: R::zero(),
         }
     }
@@ -495,6 +505,8 @@ struct Sum<'a, R: Real> {
     slowing: &'a [R],
     rate: &'a mut [R],
     detail: &'a mut [R],
+    /// Whether somebody looks at the largest loads.
+    looks: bool,
 }
 
 impl<R: Real> Sum<'_, R> {

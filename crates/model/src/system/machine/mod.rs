@@ -63,6 +63,7 @@ use driven::Outside;
 use in_space::InSpace;
 use layout::Layout;
 use number::{Gather, Real, Vec2};
+use rate::Rates;
 use solve::{Batch, Machine};
 
 /// What holds between two landings: 1 for on, 0 for off.
@@ -555,6 +556,13 @@ impl<R: Real> Batch<R> for Machines<R> {
     }
     #[inline(always)]
     fn rate(&self, mode: &Mode<R>, time: R, state: &[R], rate: &mut [R], probe: &mut [R]) {
-        self.rate_of_change(mode, time, state, rate, probe);
+        R::vectorized(Rates {
+            machines: self,
+            mode,
+            time,
+            state,
+            rate,
+            probe,
+        });
     }
 }

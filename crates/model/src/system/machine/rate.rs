@@ -57,27 +57,49 @@ impl<R: Real> Vectorized for PushHousings<'_, R> {
     }
 }
 
+/// The right-hand side as a task of its own: it is long, and stands once in the compiled code of all methods.
+pub(super) struct Rates<'a, R: Real> {
+    pub machines: &'a Machines<R>,
+    pub mode: &'a Mode<R>,
+    pub time: R,
+    pub state: &'a [R],
+    pub rate: &'a mut [R],
+    pub probe: &'a mut [R],
+}
+
+impl<R: Real> Vectorized for Rates<'_, R> {
+    type Output = ();
+    #[inline(always)]
+    fn run(self) {
+        let Rates {
+            machines,
+            mode,
+            time,
+            state,
+            rate,
+            probe,
+        } = self;
+        machines.rate_of_change(mode, time, state, rate, probe);
+    }
+}
+
 impl<R: Real> Machines<R> {
     /// What the rotor does at a bearing.
     #[inline(always)]
-    fn at_node<'a>(
+    fn at_node(
         &self,
         k: usize,
         state: &[R],
         rotor: &RotorMotion<R>,
-        acting: Option<&'a Acting<R>>,
-    ) -> AtNode<'a, R> {
+        acting: Option<&Acting<R>>,
+    ) -> AtNode<R> {
         let centre = self.nodes[k].centre(rotor);
         let inner = self.layout.bearings[k].motion(state).inner;
         let contact = match acting {
             Some(acting) => acting.contact,
             None => (self.bearings[k].contact).react(&centre, rotor.spin, &inner),
         };
-        AtNode {
-            contact,
-            centre,
-            acting,
-        }
+        AtNode { contact, centre }
     }
 
     /// Position and speed of what the mount of a bearing stands on.
@@ -135,7 +157,7 @@ impl<R: Real> Machines<R> {
             held_at = centre.position.cross(force);
             levitation = (force.dot(centre.velocity), held_at);
         }
-        let mut kept: [Option<AtNode<'_, R>>; KEPT] = [None; KEPT];
+        let mut kept: [Option<AtNode<R>>; KEPT] = [None; KEPT];
         for (k, node) in self.nodes.iter().enumerate() {
             if self.bearings[k].spatial.is_some() {
                 continue;
@@ -293,7 +315,7 @@ impl<R: Real> Machines<R> {
             };
             let external = part.accelerate(
                 at,
-                (&there, acceleration),
+                (&there, acceleration, acting),
                 gravity,
                 &motion,
                 (&reaction, &mount),
