@@ -35,25 +35,26 @@ impl Before {
     /// A file with its values.
     pub fn of(document: Document, bearings: &dyn BearingSource) -> Result<Self> {
         let mut values = Values::filled(&document, bearings, None)?;
-        let filled = values.known.clone();
+        let (filled, without_effect) = (values.known.clone(), values.without_effect.clone());
         values.derive(None)?;
         Ok(Before {
             document,
             filled,
             hidden: values.hidden_keys().into(),
             record: values.record,
-            without_effect: values.without_effect,
+            without_effect,
             known: values.known,
         })
     }
 
-    /// The values of a document that differs in numbers alone on whose keys no other one depends; none of another one.
-    fn with(&self, document: &Document) -> Result<Option<Values>> {
+    /// The values of a document that differs in numbers alone on whose keys no other one depends; none of another one, nor of one
+    /// whose numbers are refused: the whole reading says what is wrong with it first.
+    fn with(&self, document: &Document) -> Option<Values> {
         let before = &self.document;
         let mut there = before.values.keys();
         if before.system != document.system || !there.all(|path| document.values.contains_key(path))
         {
-            return Ok(None);
+            return None;
         }
         let mut values = Values {
             known: self.filled.clone(),
@@ -66,18 +67,14 @@ impl Before {
             if before.values.get(path) == Some(given) {
                 continue;
             }
-            let key = table::keys_of(document.system).find(|key| key.path == *path);
-            let Some(key) = key.filter(|key| stands_alone(key) && values.unmet(key).is_none())
-            else {
-                return Ok(None);
-            };
-            let known = values.reader(key).read(key, given)?;
-            if known.filled_in {
-                return Ok(None);
+            let key = table::keys_of(document.system).find(|key| key.path == *path)?;
+            let known = values.reader(key).read(key, given).ok()?;
+            if !stands_alone(key) || values.unmet(key).is_some() || known.filled_in {
+                return None;
             }
             values.known.insert(key.path, known);
         }
-        Ok(Some(values))
+        Some(values)
     }
 
     /// The value of a key that is given, or left to its default, as it was, and that follows from nothing else.
@@ -122,8 +119,7 @@ impl Values {
         bearings: &dyn BearingSource,
         before: Option<&Before>,
     ) -> Result<Values> {
-        let known = before.map_or(Ok(None), |before| before.with(document))?;
-        let mut values = match known {
+        let mut values = match before.and_then(|before| before.with(document)) {
             Some(values) => values,
             None => Values::filled(document, bearings, before)?,
         };

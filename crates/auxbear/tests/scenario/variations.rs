@@ -4,7 +4,7 @@ use super::schema::shipped;
 use auxbear::problem::Result;
 use auxbear::scenario::{BuiltIn, Scenario};
 
-/// Every shipped scenario with other values: an eighth of its numbers, by turns, and two of its words.
+/// Every shipped scenario with other values: an eighth of its numbers, by turns, two words, and two numbers that are refused.
 fn changes(scenario: &Scenario, turn: usize) -> Vec<(String, String)> {
     let values = scenario.resolved.values.iter().enumerate();
     let numbers = values.filter(|(place, _)| place % 8 == turn % 8);
@@ -16,13 +16,15 @@ fn changes(scenario: &Scenario, turn: usize) -> Vec<(String, String)> {
         let value = own.value_si.filter(|_| own.text.is_some())?;
         Some((own.shown(), other(value, &own.unit)))
     });
-    let word = |path: &str, word: &str| (path.to_string(), word.to_string());
-    numbers
-        .chain([
-            word("run.accuracy", "screening"),
-            word("bearing.traction.law", "coulomb"),
-        ])
-        .collect()
+    let other = |path: &str, value: &str| (path.to_string(), value.to_string());
+    let others = [
+        other("run.accuracy", "screening"),
+        other("bearing.traction.law", "coulomb"),
+        // of two that are refused the same one is named
+        other("contact.friction_coefficient", "-2"),
+        other("rotor.mass", "-2 kg"),
+    ];
+    numbers.chain(others).collect()
 }
 
 fn as_text(read: &Result<Scenario>) -> String {

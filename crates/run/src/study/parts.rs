@@ -52,8 +52,8 @@ pub fn in_turns<E>(
             break;
         }
         if seconds < SOON {
-            // as many as there are already, so that turns end with the parts
-            size = most.min(lacking.len() - rest.len());
+            // no more than there are already, so that turns end with the parts
+            size = most.min(2 * size).min(lacking.len() - rest.len());
         }
     }
     Ok(())
