@@ -346,7 +346,7 @@ impl Scenario {
 
     /// The scenario as the first of many that differ from it in a few values.
     pub fn variations(&self) -> Variations<'_> {
-        let read = |document| Before::of(document, &BuiltIn);
+        let read = |document| Before::read(document, &BuiltIn);
         let documents = self.document.of_each_bearing();
         let before: Result<_> =
             documents.and_then(|documents| documents.into_iter().map(read).collect());

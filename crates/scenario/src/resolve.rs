@@ -33,7 +33,7 @@ pub struct Before {
 
 impl Before {
     /// A file with its values.
-    pub fn of(document: Document, bearings: &dyn BearingSource) -> Result<Self> {
+    pub fn read(document: Document, bearings: &dyn BearingSource) -> Result<Self> {
         let mut values = Values::filled(&document, bearings, None)?;
         let (filled, without_effect) = (values.known.clone(), values.without_effect.clone());
         values.derive(None)?;
